@@ -22,7 +22,7 @@ Table masked(Table t, const HowFitted& how) {
 
 std::string fit_path(const std::string& path, const HowFitted& how, int jobs) {
   const Jobs threads(jobs);
-  return to_json(fit_file(path, how, let_interrupt_at).result.document);
+  return to_json(fit_files({path}, how, let_interrupt_at).result.document);
 }
 
 std::string fit_table(const Table& given, const HowFitted& how, int jobs) {

@@ -216,17 +216,15 @@ Exit run_models(const FitCall& o) {
   OutputFiles out(files, o.output, o.html);
   Progress progress(o.quiet);
   progress("reading " + o.files[0]);
-  std::optional<TableAndDigest> in;
-  Table all;
-  Table& table =
-      o.as_one ? all = read_as_one(files, o.how.bins) : in.emplace(o.files[0], o.how.bins).table;
+  TableAndDigest in = read_files(files, o.how.bins);
+  Table& table = in.table;
   if (o.how.mask) leave_out(table, *o.how.mask);
   ModelChoice choice =
       compare_models(table, o.how.options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
   Spheres spheres = add_spheres(table, choice);
-  if (in) in->finish();
+  in.finish();
   const Advice advice = advise(choice);
   const ComparedTable compared{table.path, table.sha256, table.format,
                                std::string(name_of(o.how.options.metric))};
@@ -260,8 +258,7 @@ Exit run(const FitCall& call) {
   const auto files = o.as_one ? tables_of(o.files) : o.files;
   OutputFiles out(files, o.output, o.html);
   Progress progress(o.quiet);
-  const auto [t, result] = o.as_one ? fit_as_one(files, o.how, std::ref(progress))
-                                    : fit_file(files[0], o.how, std::ref(progress));
+  const auto [t, result] = fit_files(files, o.how, std::ref(progress));
   const FitDocument& d = result.document;
 
   const std::string json = to_json(d);

@@ -172,7 +172,7 @@ Fitted fitted(const Batch& b,
               const std::string& table,
               const Place& to,
               const std::string& made) {
-  const FittedFile f = fit_file(table, b.how);
+  const FittedFile f = fit_files({table}, b.how);
   const FitDocument& d = f.result.document;
   std::string document = batch_document(d, make_preview(f.table, f.result.model), made);
   BatchRow row = parse_document(to.path, document)->row;

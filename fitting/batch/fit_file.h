@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Fit of one file.
+/// Fit of one file, or of several of one sample.
 
 #include <functional>
 #include <optional>
@@ -33,13 +33,9 @@ struct FittedFile {
   Table table;
   FitResult result;
 };
-/// Reads and fits; the document is whole.
-FittedFile fit_file(const std::string& path,
-                    const HowFitted&,
-                    const std::function<void(const std::string&)>& phase = {});
-/// The same of several files of one sample (table/format/as_one.h).
-FittedFile fit_as_one(const std::vector<std::string>& paths,
-                      const HowFitted&,
-                      const std::function<void(const std::string&)>& phase = {});
+/// Reads and fits; the document is whole.  Several files are one table (table/format/as_one.h).
+FittedFile fit_files(const std::vector<std::string>& paths,
+                     const HowFitted&,
+                     const std::function<void(const std::string&)>& phase = {});
 
 }  // namespace gonio

@@ -99,6 +99,10 @@ const std::vector<Row>& half_vectors() {
   }();
   return rows;
 }
+const std::vector<Row>& rows_of(Role role) {
+  return role == Role::ndf ? half_vectors() : role == Role::fresnel ? cosines() : pairs();
+}
+
 const std::vector<Row>& cosines() {
   static const std::vector<Row> rows = [] {
     std::vector<Row> r;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "brdf/term/term.h"
 #include "geometry/angles.h"
 #include "number/parameter.h"
 
@@ -32,6 +33,8 @@ const std::vector<Row>& pairs();
 const std::vector<Row>& half_vectors();
 /// Light and view at the same angle, from the normal to the horizon.
 const std::vector<Row>& cosines();
+/// Of these the ones that terms of a role are looked at with.
+const std::vector<Row>& rows_of(Role);
 /// Normal, middle and grazing directions with half vectors from the peak to the horizon; but for both
 /// directions at the horizon, which is outside the domain.
 const std::vector<Row>& ends();

@@ -1,11 +1,11 @@
 #include "reports/own/audit_file.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 
 #include "base/error.h"
 #include "base/json/reader.h"
+#include "base/letters.h"
 #include "brdf/in_number/number.h"
 #include "brdf/model/evaluate.h"
 #include "integrate/albedo/directional_albedo.h"
@@ -32,24 +32,17 @@ void take_smallest(std::optional<FoundAt>& w, double v, const std::string& at) {
 /// Values of parameters that a function is looked at with: of the width five, of others their ends; colours at their upper end.
 std::vector<std::vector<double>> looked_at(std::span<const Parameter> parameters) {
   const auto width = width_of(parameters);
-  std::vector<std::vector<double>> all{{}};
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto& p = parameters[k];
-    const bool bounded = !std::isnan(p.start);
-    std::vector<double> at = width == k         ? values_between(p, 5)
-                             : p.per_channel    ? std::vector{bounded ? p.legal.high : 1.0}
-                             : !bounded         ? std::vector{0.5}
-                             : all.size() > 200 ? std::vector{p.start}
-                                                : std::vector{p.legal.low, p.start, p.legal.high};
-    std::vector<std::vector<double>> more;
-    for (const auto& row : all)
-      for (const double v : at) {
-        more.push_back(row);
-        more.back().push_back(v);
-      }
-    all = std::move(more);
-  }
-  return all;
+  std::size_t rows = 1;
+  return auditing::combinations(parameters, [&](const Parameter& p) {
+    const bool bounded = !std::isnan(p.start), is_width = width && &p == &parameters[*width];
+    const auto at = is_width        ? values_between(p, 5)
+                    : p.per_channel ? std::vector{bounded ? p.legal.high : 1.0}
+                    : !bounded      ? std::vector{0.5}
+                    : rows > 200    ? std::vector{p.start}
+                                    : std::vector{p.legal.low, p.start, p.legal.high};
+    rows *= at.size();
+    return at;
+  });
 }
 
 std::string half_text(const stability::Answer& a) {
@@ -117,9 +110,7 @@ FunctionAudit audit_function(FileFunction f) {
   const auto parameters = entry.parameters;
   const auto settings = looked_at(parameters);
   const Role role = entry.role();
-  const auto& rows = role == Role::ndf       ? auditing::half_vectors()
-                     : role == Role::fresnel ? auditing::cosines()
-                                             : auditing::pairs();
+  const auto& rows = auditing::rows_of(role);
   std::vector<Row> other;
   for (const auto& r : rows) other.push_back(auditing::exchanged(r));
   for (const auto& p : settings)
@@ -173,7 +164,7 @@ std::string nearest_text(const FunctionAudit& a) {
 }
 
 std::string lowered(std::string s) {
-  for (char& c : s) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  std::ranges::transform(s, s.begin(), lower_case);
   return s;
 }
 
@@ -313,9 +304,7 @@ TermComparison compare_terms(const std::string& a,
       return p.fit;
     };
     constexpr std::size_t places = 9;
-    const auto& rows = *role == Role::ndf       ? auditing::half_vectors()
-                       : *role == Role::fresnel ? auditing::cosines()
-                                                : auditing::pairs();
+    const auto& rows = auditing::rows_of(*role);
     const auto width_a = width_of(own.parameters), width_b = width_of(other.parameters);
     double sum = 0;
     std::size_t count = 0;

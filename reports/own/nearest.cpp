@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <numbers>
 
+#include "base/letters.h"
 #include "brdf/in_number/number.h"
 #include "reports/measure/samples.h"
 
@@ -23,17 +23,11 @@ constexpr std::array powers{1.0, 2.0, 0.5, 4.0};
 std::string plain_name(std::string_view name) {
   std::string s;
   for (const char c : name)
-    if (c != '_') s += static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    if (c != '_') s += lower_case(c);
   return s;
 }
 bool is_rough(std::string_view name) {
   return plain_name(name).find("rough") != std::string::npos;
-}
-
-const std::vector<Row>& rows_of(Role role) {
-  return role == Role::ndf       ? auditing::half_vectors()
-         : role == Role::fresnel ? auditing::cosines()
-                                 : auditing::pairs();
 }
 
 /// Of how the file's parameters stand for the form's: [form's parameter] → the file's, or none.
@@ -61,7 +55,7 @@ Pairing pair_up(const TermEntry& own, const TermEntry& form) {
 /// One form, by one power of the width, against the file's function.
 NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing, double power) {
   const auto &own = catalogue()[term], &other = catalogue()[form];
-  const auto& rows = rows_of(own.role());
+  const auto& rows = auditing::rows_of(own.role());
   NearestForm n;
   n.term = form;
   if (pairing.width) n.width = own.parameters[*pairing.width].name;

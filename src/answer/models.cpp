@@ -1,10 +1,10 @@
 #include "answer/models.h"
 
 #include <algorithm>
-#include <cctype>
 
 #include "base/error.h"
 #include "base/json/reader.h"
+#include "base/letters.h"
 #include "brdf/formula/widths.h"
 
 #include <fmt/format.h>
@@ -15,11 +15,8 @@ namespace {
 
 /// True where a word stands in a text, whatever its case.
 bool holds(std::string_view text, std::string_view word) {
-  const auto same = [](char a, char b) {
-    return std::tolower(static_cast<unsigned char>(a)) ==
-           std::tolower(static_cast<unsigned char>(b));
-  };
-  return std::ranges::search(text, word, same).begin() != text.end() || word.empty();
+  return std::ranges::search(text, word, {}, lower_case, lower_case).begin() != text.end() ||
+         word.empty();
 }
 
 Json describe(const Parameter& p) {

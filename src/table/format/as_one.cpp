@@ -10,7 +10,6 @@
 #include "base/error.h"
 #include "base/quantile.h"
 #include "base/sha256.h"
-#include "table/format/formats.h"
 #include "table/format/in_memory.h"
 
 #include <fmt/format.h>
@@ -133,11 +132,15 @@ Table read_as_one(const std::vector<std::string>& paths, std::optional<Bins> bin
   if (!same_truth) all.truth.reset();
   all.where = std::move(l);
   all.sha256 = sha256(digests);
-  if (paths.size() > 1)
-    all.notes.emplace_back("agreement", agreement.empty()
-                                            ? "no direction stands in two files"
-                                            : fmt::format("{}", fmt::join(agreement, "; ")));
+  all.notes.emplace_back("agreement", agreement.empty()
+                                          ? "no direction stands in two files"
+                                          : fmt::format("{}", fmt::join(agreement, "; ")));
   return all;
+}
+
+TableAndDigest read_files(const std::vector<std::string>& paths, std::optional<Bins> bins) {
+  return paths.size() == 1 ? TableAndDigest(paths[0], bins)
+                           : TableAndDigest(read_as_one(paths, bins));
 }
 
 }  // namespace gonio

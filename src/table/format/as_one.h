@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "table/table.h"
+#include "table/format/formats.h"
 
 namespace gonio {
 
@@ -18,5 +18,7 @@ namespace gonio {
 /// Table::sha256 is that of the files' own, line by line.
 /// \throws Error  as read_table(), or bad_input where channels differ or there are more samples than a reader takes
 Table read_as_one(const std::vector<std::string>& paths, std::optional<Bins> bins = {});
+/// The table of one file, or that of several.
+TableAndDigest read_files(const std::vector<std::string>& paths, std::optional<Bins> bins = {});
 
 }  // namespace gonio

@@ -9,6 +9,11 @@ namespace gonio {
 
 inline constexpr std::string_view blanks = " \t\r";
 
+/// Text without UTF-8's byte-order mark.
+inline std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
+  return text;
+}
 /// Text without the blanks at its ends.
 inline std::string_view trimmed(std::string_view s) {
   s.remove_prefix(std::min(s.find_first_not_of(blanks), s.size()));

@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/json/reader.h"
+#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -18,7 +19,7 @@ namespace gonio {
 namespace {
 
 bool json_with(std::string_view head, std::initializer_list<std::string_view> keys) {
-  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);
+  head = without_mark(head);
   head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
   return head.starts_with("{") && head.find("\"gonio.") == head.npos &&
          std::ranges::all_of(
@@ -86,9 +87,7 @@ class Geometries {
 };
 
 double number_within(const JsonReader& j, double least, double most, const std::string& what) {
-  const double v = j.is_number()     ? j.number()
-                   : j.is_negative() ? double(j.negative_number())
-                                     : std::nan("");
+  const double v = j.is_number() ? j.number() : std::nan("");
   if (!(v >= least && v <= most)) j.fail(fmt::format("{} in [{:g}, {:g}]", what, least, most));
   return v;
 }

@@ -112,11 +112,6 @@ std::string_view next_of(std::string_view& text, char line_end) {
   return line;
 }
 
-std::string_view without_mark(std::string_view text) {
-  if (text.starts_with("\xef\xbb\xbf")) text.remove_prefix(3);
-  return text;
-}
-
 /// Fields of a line by one separator.
 std::vector<std::string> fields_of(std::string_view line, char separator) {
   std::vector<std::string_view> fields;

@@ -247,10 +247,12 @@ TableAndDigest::TableAndDigest(const std::string& path, std::optional<Bins> bins
     throw;
   }
 }
+TableAndDigest::TableAndDigest(Table whole) : table(std::move(whole)) {}
 TableAndDigest::~TableAndDigest() = default;
 TableAndDigest::TableAndDigest(TableAndDigest&&) noexcept = default;
 
 void TableAndDigest::finish() {
+  if (!digest_) return;
   table.sha256 = digest_->wait();
   if (!side_.empty()) expect_same_table(table, side_path(table.path), side_);
 }

@@ -31,6 +31,8 @@ Table read_table(const std::string& path, std::optional<Bins> bins = {});
 class TableAndDigest {
  public:
   explicit TableAndDigest(const std::string& path, std::optional<Bins> bins = {});
+  /// Of a table that has its SHA-256 already.
+  explicit TableAndDigest(Table);
   ~TableAndDigest();
   TableAndDigest(TableAndDigest&&) noexcept;
 

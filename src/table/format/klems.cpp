@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "table/format/blanks.h"
 #include "table/format/tensor_tree.h"
 
 #include <fmt/format.h>
@@ -234,7 +235,7 @@ class KlemsReader {
 }  // namespace
 
 bool is_klems(std::string_view head) {
-  if (head.starts_with("\xef\xbb\xbf")) head.remove_prefix(3);
+  head = without_mark(head);
   head.remove_prefix(std::min(head.find_first_not_of(" \t\r\n"), head.size()));
   return head.starts_with("<") && head.find("<WindowElement") != head.npos;
 }

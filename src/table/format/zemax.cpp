@@ -8,6 +8,7 @@
 #include <set>
 
 #include "base/error.h"
+#include "base/letters.h"
 #include "base/numbers.h"
 #include "base/text.h"
 #include "table/format/blanks.h"
@@ -43,13 +44,6 @@ const std::array kAxes{ZemaxAxis{"SampleRotation", &ZemaxAxes::rotation, -360, 3
 
 constexpr std::array<std::string_view, 3> kTristimulus{"TristimulusX", "TristimulusY",
                                                        "TristimulusZ"};
-
-bool same_word(std::string_view a, std::string_view b) {
-  return std::ranges::equal(a, b, [](char x, char y) {
-    return std::tolower(static_cast<unsigned char>(x)) ==
-           std::tolower(static_cast<unsigned char>(y));
-  });
-}
 
 /// Values of one channel on the axes.
 struct ZemaxFunction {
@@ -150,12 +144,44 @@ struct ZemaxFunction {
   }
 };
 
+/// A value of a file that lies above the horizon.
+struct ZemaxPlace {
+  std::size_t at;  ///< in the file
+  double theta_i_deg, phi_i_deg;
+  Direction wo;  ///< for light from azimuth 0
+  bool repeats;  ///< another value's direction
+};
+std::vector<ZemaxPlace> places_above_the_horizon(const ZemaxAxes& axes) {
+  std::vector<ZemaxPlace> all;
+  std::size_t at = 0;
+  for (const double turn : axes.rotation)
+    for (const double theta : axes.incident)
+      for (std::size_t a = 0; a < axes.azimuth.size(); ++a)
+        for (const double radius : axes.radius) {
+          const auto wo = zemax_direction(theta, axes.azimuth[a], radius);
+          const bool repeats = a > 0 && (radius == 0 || axes.azimuth[a] == axes.azimuth[0] + 360);
+          if (wo.z > horizon_cosine) all.push_back({at, theta, turn == 0 ? 0 : -turn, wo, repeats});
+          ++at;
+        }
+  return all;
+}
+DirectionList directions_of(const std::vector<ZemaxPlace>& places) {
+  DirectionList l;
+  for (const auto& p : places) {
+    if (p.repeats) continue;
+    l.theta_i_deg.push_back(p.theta_i_deg);
+    l.phi_i_deg.push_back(p.phi_i_deg);
+    l.theta_o_deg.push_back(theta_of(p.wo) / degree);
+    const double phi_o = p.phi_i_deg + phi_of(p.wo) / degree;
+    l.phi_o_deg.push_back(phi_o < 0 ? phi_o + 360 : phi_o);
+  }
+  return l;
+}
+
 class ZemaxReader {
  public:
   explicit ZemaxReader(InputFile& in)
-      : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 30)), rest_(text_) {
-    if (rest_.starts_with("\xef\xbb\xbf")) rest_.remove_prefix(3);
-  }
+      : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 30)), rest_(without_mark(text_)) {}
 
   Table table() {
     header();
@@ -167,25 +193,28 @@ class ZemaxReader {
     t.channels = xyz_ ? std::vector<std::string>{"X", "Y", "Z"} : std::vector<std::string>{"f"};
     t.notes = notes_;
     if (xyz_) t.notes.emplace_back("channels", "CIE tristimulus values X, Y, Z: no r, g, b");
-    t.where = zemax_directions(axes);
+    const auto places = places_above_the_horizon(axes);
+    t.where = directions_of(places);
     std::vector<double> told;
     double largest = 0;
     std::string worst;
     for (std::size_t c = 0; c < t.channels.size(); ++c) {
       if (c > 0) expect_word(next_said(std::string(kTristimulus[c])), kTristimulus[c]);
       expect_word(next_said("DataBegin"), "DataBegin");
-      ZemaxFunction f = f_;
+      std::vector<double> read;
       for (std::size_t b = 0; b < blocks; ++b) {
         told.push_back(total());
-        for (std::size_t k = 0; k < in_block; ++k)
-          f.values.push_back(number("a value", -1e30, 1e30));
+        for (std::size_t k = 0; k < in_block; ++k) read.push_back(number("a value", -1e30, 1e30));
         expect_end_of_line();
       }
       expect_word(next_said("DataEnd"), "DataEnd");
-      keep_what_is_above_the_horizon(f);
+      ZemaxFunction f = f_;
+      f.values.assign(read.size(), kNoValue);
       Values plane;
-      for_each_sample(axes,
-                      [&](std::size_t at, const Direction&) { plane.push_back(f.values[at]); });
+      for (const auto& p : places) {
+        if (!(zeros_are_gaps_ && read[p.at] == 0)) f.values[p.at] = read[p.at];
+        if (!p.repeats) plane.push_back(f.values[p.at]);
+      }
       t.values.push_back(std::move(plane));
       compare(f, told, t.channels[c], t.notes, largest, worst);
       told.clear();
@@ -197,21 +226,6 @@ class ZemaxReader {
     t.between = [all = std::make_shared<std::vector<ZemaxFunction>>(std::move(functions_))](
                     const DirectionPair& p, std::size_t c) { return (*all)[c](p); };
     return t;
-  }
-
-  /// Each direction above the horizon once.
-  template <class F>
-  static void for_each_sample(const ZemaxAxes& axes, F f) {
-    std::size_t at = 0;
-    for (std::size_t r = 0; r < axes.rotation.size(); ++r)
-      for (const double theta : axes.incident)
-        for (std::size_t a = 0; a < axes.azimuth.size(); ++a)
-          for (const double radius : axes.radius) {
-            const std::size_t here = at++;
-            if (a > 0 && (radius == 0 || axes.azimuth[a] == axes.azimuth[0] + 360)) continue;
-            const auto wo = zemax_direction(theta, axes.azimuth[a], radius);
-            if (wo.z > horizon_cosine) f(here, wo);
-          }
   }
 
  private:
@@ -238,7 +252,7 @@ class ZemaxReader {
     return line_;
   }
   void expect_word(std::string_view line, std::string_view word) const {
-    if (!same_word(line, word)) fail(line, std::string(word));
+    if (!same_letters(line, word)) fail(line, std::string(word));
   }
   double number(const std::string& what, double least, double most) {
     auto word = next_word(line_);
@@ -258,7 +272,7 @@ class ZemaxReader {
   double total() {
     next_said("TIS and a number");
     const auto key = next_word(line_);
-    if (!same_word(key, "TIS")) fail(key, "TIS and a number");
+    if (!same_letters(key, "TIS")) fail(key, "TIS and a number");
     const double v = number("an integral", 0, 1e30);
     expect_end_of_line();
     return v;
@@ -270,14 +284,14 @@ class ZemaxReader {
       next_said("a header");
       const auto line = line_;
       const auto key = next_word(line_);
-      const auto is = [&](const auto& known) { return same_word(key, known.key); };
+      const auto is = [&](const auto& known) { return same_letters(key, known.key); };
       const auto once = [&](std::string_view known) {
         if (!seen.insert(known).second) fail(key, "each keyword once");
       };
       if (const auto word = std::ranges::find_if(kWords, is); word != kWords.end()) {
         const auto said = trimmed(line_);
         const auto chosen = std::ranges::find_if(
-            word->choices, [&](auto c) { return !c.empty() && same_word(said, c); });
+            word->choices, [&](auto c) { return !c.empty() && same_letters(said, c); });
         if (chosen == word->choices.end())
           fail(said, fmt::format("{} {} or {}", word->key, word->choices[0], word->choices[1]));
         if (*chosen == "BTDF") fail(said, "BRDF: gonio fits reflection");
@@ -290,7 +304,7 @@ class ZemaxReader {
         read_axis(*axis);
       } else {
         const std::string_view first = xyz_ ? kTristimulus[0] : "Monochrome";
-        if (!same_word(line, first))
+        if (!same_letters(line, first))
           fail(line, fmt::format("a keyword of the header, or {}", first));
         break;
       }
@@ -328,18 +342,6 @@ class ZemaxReader {
     expect_end_of_line();
   }
 
-  void keep_what_is_above_the_horizon(ZemaxFunction& f) const {
-    std::size_t at = 0;
-    for (std::size_t r = 0; r < f.axes.rotation.size(); ++r)
-      for (const double theta : f.axes.incident)
-        for (const double azimuth : f.axes.azimuth)
-          for (const double radius : f.axes.radius) {
-            double& v = f.values[at++];
-            if (!(zemax_direction(theta, azimuth, radius).z > horizon_cosine) ||
-                (zeros_are_gaps_ && v == 0))
-              v = kNoValue;
-          }
-  }
   /// The file's own integrals beside those of its values.
   static void compare(const ZemaxFunction& f,
                       const std::vector<double>& told,
@@ -382,17 +384,17 @@ class ZemaxReader {
 }  // namespace
 
 bool is_zemax(std::string_view head) {
+  head = without_mark(head);
   while (!head.empty()) {
     const auto end = std::min(head.find_first_of("\r\n"), head.size());
     auto line = trimmed(head.substr(0, end));
     head.remove_prefix(std::min(end + 1, head.size()));
-    if (line.starts_with("\xef\xbb\xbf")) line.remove_prefix(3);
     if (line.empty() || line[0] == '#') continue;
     const auto key = next_word(line);
     const auto said = trimmed(line);
     return std::ranges::any_of(kWords, [&](const ZemaxWord& w) {
-      return same_word(key, w.key) && std::ranges::any_of(w.choices, [&](auto c) {
-               return !c.empty() && same_word(said, c);
+      return same_letters(key, w.key) && std::ranges::any_of(w.choices, [&](auto c) {
+               return !c.empty() && same_letters(said, c);
              });
     });
   }
@@ -407,19 +409,7 @@ Direction zemax_direction(double incident_deg, double azimuth_deg, double radius
 }
 
 DirectionList zemax_directions(const ZemaxAxes& axes) {
-  DirectionList l;
-  const std::size_t in_rotation = axes.incident.size() * axes.azimuth.size() * axes.radius.size(),
-                    in_block = axes.azimuth.size() * axes.radius.size();
-  ZemaxReader::for_each_sample(axes, [&](std::size_t at, const Direction& wo) {
-    const double phi_i =
-        axes.rotation[at / in_rotation] == 0 ? 0 : -axes.rotation[at / in_rotation];
-    l.theta_i_deg.push_back(axes.incident[at % in_rotation / in_block]);
-    l.phi_i_deg.push_back(phi_i);
-    l.theta_o_deg.push_back(theta_of(wo) / degree);
-    const double phi_o = phi_i + phi_of(wo) / degree;
-    l.phi_o_deg.push_back(phi_o < 0 ? phi_o + 360 : phi_o);
-  });
-  return l;
+  return directions_of(places_above_the_horizon(axes));
 }
 
 Table read_zemax(InputFile& in) {
@@ -447,15 +437,16 @@ ZemaxAxes zemax_axes(const Table& t) {
 /// The values of such a table on the axes, channel by channel.
 static std::vector<ZemaxFunction> zemax_functions(const Table& t) {
   const ZemaxAxes axes = zemax_axes(t);
-  const std::size_t in_row = axes.radius.size(), rows = axes.incident.size() * axes.azimuth.size();
+  const auto places = places_above_the_horizon(axes);
   std::vector<ZemaxFunction> all;
   for (const auto& plane : t.values) {
-    ZemaxFunction f{axes, true, std::vector<double>(rows * in_row, kNoValue)};
+    ZemaxFunction f{axes, true,
+                    std::vector<double>(
+                        axes.incident.size() * axes.azimuth.size() * axes.radius.size(), kNoValue)};
     std::size_t sample = 0;
-    ZemaxReader::for_each_sample(
-        axes, [&](std::size_t k, const Direction&) { f.values[k] = plane[sample++]; });
-    for (std::size_t row = 0; row < rows; ++row)  // the mirror direction stands in each
-      if (row % axes.azimuth.size() > 0) f.values[row * in_row] = f.values[(row - 1) * in_row];
+    // What repeats is the mirror direction, which stands in each row, first.
+    for (const auto& p : places)
+      f.values[p.at] = p.repeats ? f.values[p.at - axes.radius.size()] : plane[sample++];
     all.push_back(std::move(f));
   }
   return all;
