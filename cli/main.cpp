@@ -27,13 +27,11 @@ int fail(gonio::Exit code, const char* what) {
   return finish(code);
 }
 
-/// Standard output took no more.
+/// Standard output took no more. A reader that has seen enough, as head, is told nothing.
 int fail_printing(int error) {
-  const bool closed = error == EPIPE;
+  if (error == EPIPE) return finish(gonio::Exit::bad_input);
   return fail(gonio::Exit::bad_input,
-              fmt::format("standard output: writing: found {}, expected {}",
-                          closed ? "a closed pipe" : std::strerror(error),
-                          closed ? "a reader that stays to the end" : "room")
+              fmt::format("standard output: writing: found {}, expected room", std::strerror(error))
                   .c_str());
 }
 

@@ -6,6 +6,7 @@
 
 #include "base/file.h"
 #include "cli/line/command.h"
+#include "fitting/choice/choice.h"
 
 #include <fmt/format.h>
 
@@ -74,7 +75,7 @@ std::string man_page(const std::vector<CommandText>& all, const CommandText& c) 
     if (!o.value.empty() && !o.by_position) out += fmt::format(" \\fI{}\\fR", roff(o.value));
     out += "\n" + roff(o.help) + "\n";
     if (!o.choices.empty())
-      out += roff(fmt::format("One of: {}.", fmt::join(o.choices, ", "))) + "\n";
+      out += roff(fmt::format("\n.br\nOne of: {}.", fmt::join(o.choices, ", "))).substr(1) + "\n";
   }
   if (whole) {
     out += ".SH COMMANDS\n";
@@ -84,10 +85,22 @@ std::string man_page(const std::vector<CommandText>& all, const CommandText& c) 
     out += ".SH EXIT STATUS\n" + roff(c.footer) + "\n";
   } else {
     const auto line = c.footer.find('\n');
-    out += fmt::format(".SH EXAMPLE\n.nf\n{}\n.fi\n.SH SEE ALSO\n.BR gonio (1)\n",
-                       roff(c.footer.substr(line == c.footer.npos ? 0 : line + 1)));
+    out += fmt::format(
+        ".SH EXAMPLE\n.nf\n{}\n.fi\n.SH EXIT STATUS\n{}\n.SH SEE ALSO\n.BR gonio (1)\n",
+        roff(c.footer.substr(line == c.footer.npos ? 0 : line + 1)), roff(all.front().footer));
   }
   return out;
+}
+
+/// Shells offer the usual models, though others are taken, too.
+void offer_models(std::vector<CommandText>& all) {
+  for (auto& c : all)
+    for (auto& o : c.options) {
+      const bool several = o.names.back() == "--models";
+      if (!several && o.names.back() != "--model") continue;
+      for (const auto model : usual_models()) o.choices.emplace_back(model);
+      if (several) o.choices.emplace_back("all");
+    }
 }
 
 /// Words that are taken, by the option before them: nothing where any word is.
@@ -95,7 +108,7 @@ std::string bash(const std::vector<CommandText>& all) {
   std::vector<std::string> names;
   for (std::size_t i = 1; i < all.size(); ++i) names.push_back(all[i].name);
   std::string out = fmt::format(
-      "# gonio's words for bash; an option without a choice takes files.\n"
+      "# gonio's words for bash; an option without words takes files.\n"
       "_gonio() {{\n"
       "  local word=${{COMP_WORDS[COMP_CWORD]}} before=${{COMP_WORDS[COMP_CWORD-1]}} words=\n"
       "  COMPREPLY=()\n"
@@ -193,11 +206,12 @@ void write(const std::filesystem::path& path, std::string_view text) {
 }
 
 Exit run(const Options& o) {
-  const auto all = o.line->texts();
+  auto all = o.line->texts();
   const std::filesystem::path share = o.folder;
   for (const auto& c : all)
     write(share / "man/man1" / (&c == &all.front() ? "gonio.1" : "gonio-" + c.name + ".1"),
           man_page(all, c));
+  offer_models(all);
   write(share / "bash-completion/completions/gonio", bash(all));
   write(share / "zsh/site-functions/_gonio", zsh(all));
   write(share / "fish/vendor_completions.d/gonio.fish", fish(all));

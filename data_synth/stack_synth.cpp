@@ -117,7 +117,7 @@ class ParametersIn {
       }
     const auto is_of_a_map = [](const std::string& name) {
       return name.find(".std_error") != name.npos || name.find(".status") != name.npos ||
-             name.starts_with("normal.") || name == "rms" || name == "outcome";
+             name.starts_with("normal.") || name == "rms" || name == "misfit" || name == "outcome";
     };
     for (std::size_t c = 0; c < there.size(); ++c)
       if (!used[c] && !is_of_a_map(there[c]))
@@ -157,18 +157,6 @@ class ParametersIn {
   std::unique_ptr<ImageFile> file_;
   std::vector<std::size_t> channels_, values_;
 };
-
-/// A direction in the frame of a normal, whose tangent is x less its part along the normal.
-DirectionPair within(const DirectionPair& p, const Direction& normal) {
-  const Vector n = vector_of(normal);
-  const Vector t = vector_of(direction(Vector{1, 0, 0} - n.x * n));
-  const Vector b = cross(n, t);
-  const auto turned = [&](const Direction& d) {
-    const Vector v = vector_of(d);
-    return Direction{dot(v, t), dot(v, b), dot(v, n)};
-  };
-  return {turned(p.wi), turned(p.wo)};
-}
 
 std::vector<DirectionPair> pairs_of(const DirectionList& l) {
   std::vector<DirectionPair> pairs;

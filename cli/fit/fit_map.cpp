@@ -10,6 +10,7 @@
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "fitting/map/gather.h"
+#include "fitting/map/survey.h"
 
 #include <fmt/format.h>
 
@@ -22,6 +23,7 @@ struct FitMapCall : Common {
   std::string stack, output, tile_size = "256";
   std::vector<std::string> tiles;
   TexelOptions texels;
+  bool as_given = false;
 };
 
 /// Line of how far a map is, and how long still.
@@ -62,8 +64,26 @@ class ScratchFolder {
   fs::path path_;
 };
 
+/// A look at some texels before the work; directions that are not the stack's own end it.
+StackSurvey look_at(const StackReader& stack, const FitMapCall& o) {
+  Progress progress(o.quiet);
+  progress("looking at some texels");
+  StackSurvey found = survey(stack, o.texels);
+  progress.clear();
+  const auto& other = found.arrangement;
+  if (other.sure && !o.as_given)
+    throw bad_input(
+        stack.stack().path, "directions", "those of other images",
+        fmt::format("these ({}: then an rms {:.3g} times less is left; {}; or --as-given)",
+                    other.what, 1 / other.ratio, other.cure));
+  return found;
+}
+
 /// Tiles that were asked for, into a folder.
-Exit run_tiles(const FitMapCall& o, const StackReader& stack, const TileGrid& grid) {
+Exit run_tiles(const FitMapCall& o,
+               const StackReader& stack,
+               const TileGrid& grid,
+               const StackSurvey& found) {
   std::vector<Tile> tiles;
   for (const auto& word : o.tiles) {
     const auto place = two_numbers(word, "--tile", 0, longest_side, false);
@@ -75,7 +95,8 @@ Exit run_tiles(const FitMapCall& o, const StackReader& stack, const TileGrid& gr
     if (std::ranges::find(tiles, tile) == tiles.end()) tiles.push_back(tile);
   }
   MapProgress progress(o.quiet, grid);
-  const MapCount n = fit_tiles(stack, o.texels, grid, tiles, o.output, std::ref(progress));
+  const MapCount n =
+      fit_tiles(stack, o.texels, grid, tiles, o.output, std::ref(progress), found.noise);
   progress.line().clear();
   TilesDocument d{{}, n.kept, grid.columns(), grid.rows()};
   for (const Tile& t : tiles) d.tiles.push_back((fs::path(o.output) / file_name(t)).string());
@@ -104,7 +125,8 @@ Exit run(const FitMapCall& o) {
   if (grid.columns() * grid.rows() > most_tiles)
     throw wrong_usage(fmt::format("--tile-size {}: {} × {} tiles; at most {} in all", o.tile_size,
                                   grid.columns(), grid.rows(), most_tiles));
-  if (!o.tiles.empty()) return run_tiles(o, stack, grid);
+  const StackSurvey found = look_at(stack, o);
+  if (!o.tiles.empty()) return run_tiles(o, stack, grid, found);
 
   OutputFile out(o.output);  // before the work: nobody waits to learn that it has no place
   // Tiles stay beside it until it is whole: a run that was killed goes on from them.
@@ -114,9 +136,10 @@ Exit run(const FitMapCall& o) {
   remove_other_tiles(stack, t, grid, folder);
   const auto tiles = grid.all();
   MapProgress line(o.quiet, grid);
-  const MapCount n = fit_tiles(stack, t, grid, tiles, folder, std::ref(line));
+  const MapCount n = fit_tiles(stack, t, grid, tiles, folder, std::ref(line), found.noise);
   line.line()("writing " + o.output);
-  const MapDocument d = gather_tiles(folder, out, threads_in_use());
+  MapDocument d = gather_tiles(folder, out, threads_in_use());
+  d.warnings = warnings_of(found, stack.stack(), t.model);
   out.commit();
   line.line().clear();
   print_map(d, o, n.kept ? fmt::format("{} of {} tiles kept from before", n.kept, n.tiles) : "");
@@ -142,6 +165,8 @@ void add_fit_map(CommandLine& line) {
   c.option("--tile-size", o->tile_size, "WIDTH,HEIGHT of tiles, or one number for both")
       .show_default();
   c.option("-o,--output", o->output, "OpenEXR file of the map; of --tile a folder").required();
+  c.flag("--as-given", o->as_given,
+         "Fit even where the images say that the directions are others than the stack has");
   add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);

@@ -23,6 +23,10 @@ void print(const MapDocument& d, const std::string& beside) {
   if (d.no_data) ended += fmt::format(", {} without a value", percent(d.no_data, texels));
   if (!beside.empty()) ended += "; " + beside;
   say_below("texels  ", ended);
+  if (!std::isnan(d.rms)) say("rms     {:.3g} on average, in the metric's unit\n", d.rms);
+  if (50 * d.misfit > texels)  // of the right model one in 200
+    say_below("misfit  ", fmt::format("{} of the texels are off by more than noise leaves",
+                                      percent(d.misfit, texels)));
   for (const auto& p : d.parameters) {
     std::string text = std::isnan(p.mean) ? "–" : fmt::format("{:.4g} on average", p.mean);
     if (!std::isnan(p.mean_std_error)) text += fmt::format(" ± {:.2g} each", p.mean_std_error);
@@ -33,6 +37,7 @@ void print(const MapDocument& d, const std::string& beside) {
     say_below(fmt::format("{:<13} ", p.name), text);
   }
   say("map     {}\n", d.path);
+  for (const auto& w : d.warnings) say_below("warning ", w);
 }
 
 }  // namespace
@@ -45,7 +50,7 @@ void print_map(const MapDocument& d, const Common& o, const std::string& beside)
 }
 
 Exit outcome_of(const MapDocument& d) {
-  return d.converged > 0 ? Exit::done : Exit::not_converged;
+  return 2 * d.converged > d.converged + d.not_converged ? Exit::done : Exit::not_converged;
 }
 
 Exit gather_map(const std::string& folder, const std::string& output, const Common& o) {

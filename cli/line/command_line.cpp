@@ -156,6 +156,22 @@ namespace {
                                 fmt::join(nearest(name, known), ", ")));
 }
 
+/// An option that the command has not, where one is among the words that it left over.
+void refuse_option(const CLI::App& command) {
+  const auto left = command.remaining();
+  const auto unknown =
+      std::ranges::find_if(left, [](const std::string& word) { return word.starts_with("--"); });
+  if (unknown == left.end()) return;
+  std::vector<std::string> names;
+  for (const auto* o : command.get_options())
+    for (const auto& name : o->get_lnames()) names.push_back("--" + name);
+  const std::vector<std::string_view> known(names.begin(), names.end());
+  const std::string name = unknown->substr(0, unknown->find('='));
+  throw wrong_usage(fmt::format("no option '{}'; nearest: {}; see gonio {} --help",
+                                printable(name, 80), fmt::join(nearest(name, known), ", "),
+                                command.get_name()));
+}
+
 OptionText text_of(const CLI::Option& option) {
   OptionText out;
   out.help = option.get_description();
@@ -204,6 +220,7 @@ Action CommandLine::parse(int argc, const char* const* argv) {
     const auto called = app_->get_subcommands();
     if (called.empty() && argc > 1) refuse_subcommand(*app_, argv[1]);
     if (called.empty()) throw wrong_usage("no subcommand; see gonio --help");
+    refuse_option(*called.front());
     std::string what = e.what();
     constexpr std::string_view missing = ": 1 required TEXT missing";  // as CLI11 puts it
     if (what.ends_with(missing))

@@ -12,6 +12,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json/describe.h"
+#include "fitting/map/survey.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -122,7 +123,8 @@ MapCount fit_tiles(const StackReader& stack,
                    const TileGrid& grid,
                    std::span<const Tile> tiles,
                    const std::string& folder,
-                   const std::function<void(const MapCount&)>& progress) {
+                   const std::function<void(const MapCount&)>& progress,
+                   const TexelNoise& noise) {
   check(options, stack.channels().size());
   const TexelFit layout = layout_of(options, stack.channels().size());
   const MapAttributes map = attributes_of(stack, options);
@@ -140,10 +142,11 @@ MapCount fit_tiles(const StackReader& stack,
   const auto fit_part = [&](const StackPart& samples, const Rectangle& part, MapPlanes& to) {
     tbb::parallel_for(std::size_t{0}, samples.pieces(), [&](std::size_t k) {
       const auto p = samples.piece(k);
-      to.put(fit_texels({p.texels, samples.images, samples.channels, p.values, samples.shared,
-                         p.light, p.view, p.normal},
-                        options),
-             part, p.first);
+      TexelFit fit = fit_texels({p.texels, samples.images, samples.channels, p.values,
+                                 samples.shared, p.light, p.view, p.normal},
+                                options);
+      fit.misfit = misfit_of(fit, noise);
+      to.put(fit, part, p.first);
       if (!progress) return;
       const std::lock_guard lock(one_at_a_time);
       count.done = std::min(count.texels, count.done + p.texels);

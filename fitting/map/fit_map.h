@@ -42,12 +42,14 @@ void remove_other_tiles(const StackReader&,
 ///
 /// \param tiles     of the grid
 /// \param progress  called by one thread at a time
+/// \param noise     of a survey of the whole stack, by which texels are judged; none: their misfit is not known
 /// \throws Error  bad_input for a tile in the folder that is of anything else: it is not overwritten
 MapCount fit_tiles(const StackReader&,
                    const TexelOptions&,
                    const TileGrid&,
                    std::span<const Tile> tiles,
                    const std::string& folder,
-                   const std::function<void(const MapCount&)>& progress = {});
+                   const std::function<void(const MapCount&)>& progress = {},
+                   const TexelNoise& noise = {});
 
 }  // namespace gonio

@@ -39,9 +39,14 @@ inline constexpr auto description<MapDocument> = std::tuple{
     Field{"width", "texels", &MapDocument::width, ""},
     Field{"height", "texels", &MapDocument::height, ""},
     Field{"tiles", &MapDocument::tiles, "that it was made of"},
-    Group{"texels", "how their fits ended", Field{"converged", &MapDocument::converged, ""},
-          Field{"not_converged", &MapDocument::not_converged, "the best seen is kept"},
-          Field{"no_data", &MapDocument::no_data, "no value that can be compared"}},
+    Group{
+        "texels", "how their fits ended", Field{"converged", &MapDocument::converged, ""},
+        Field{"not_converged", &MapDocument::not_converged, "the best seen is kept"},
+        Field{"no_data", &MapDocument::no_data, "no value that can be compared"},
+        Field{"misfit", &MapDocument::misfit, "off by more than noise leaves, however they ended"}},
+    Field{"rms", &MapDocument::rms, "of the metric's residuals, on average over the texels"},
+    Field{"warnings", &MapDocument::warnings,
+          "what a sample of the texels says of the stack and the model"},
     Field{"parameters", &MapDocument::parameters, "by their names"}};
 
 std::string to_json(const MapDocument& d) {
@@ -209,9 +214,12 @@ MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads
     channels.push_back({name, is_mark ? Storage::half : Storage::single});
     if (Sums::is_status(name)) sums.emplace_back(names, name);
   }
-  const auto outcome =
-      static_cast<std::size_t>(std::ranges::find(names, "outcome") - names.begin());
-  if (outcome == names.size() || !std::ranges::all_of(sums, &Sums::whole))
+  const auto place_of = [&](const char* name) {
+    return static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+  };
+  const auto outcome = place_of("outcome"), rms = place_of("rms"), misfit = place_of("misfit");
+  double sum_of_rms = 0;
+  if (std::max({outcome, rms, misfit}) == names.size() || !std::ranges::all_of(sums, &Sums::whole))
     throw bad_input(tiles.paths[0], "channels", fmt::format("{}", fmt::join(names, ", ")),
                     "those of a tile of gonio fit_map");
 
@@ -254,10 +262,15 @@ MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads
       d.converged += ended(TexelOutcome::converged);
       d.not_converged += ended(TexelOutcome::not_converged);
       d.no_data += ended(TexelOutcome::no_data);
+      for (std::size_t t = 0; t < texels; ++t) {
+        if (!std::isnan(rows[rms][t])) sum_of_rms += double{rows[rms][t]};
+        d.misfit += rows[misfit][t] > 1;
+      }
       writer.write(count, planes);
     }
   }
   writer.finish();
+  d.rms = sum_of_rms / static_cast<double>(d.converged + d.not_converged);  // NaN of none
   for (const auto& s : sums) d.parameters.push_back(s.result());
   std::ranges::stable_sort(d.parameters, {}, as_told);  // a file has its channels by the alphabet
   return d;

@@ -24,6 +24,9 @@ struct MapDocument {
   std::string path, model, options, stack;  ///< stack: StackReader::digest()
   std::size_t width = 0, height = 0, tiles = 0;
   std::uint64_t converged = 0, not_converged = 0, no_data = 0;  ///< texels
+  std::uint64_t misfit = 0;           ///< texels that are off by more than noise leaves
+  double rms = 0;                     ///< of the metric's residuals, on average; NaN of none
+  std::vector<std::string> warnings;  ///< of a survey; of tiles that were joined none
   std::vector<MapParameter> parameters;
 };
 /// "gonio.map/1"

@@ -512,6 +512,9 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
     std::size_t taken = 0;
     for (std::size_t i = 0; i < n(); ++i) taken += left_out_[i * padding + l] != 1;
     const auto values = static_cast<std::size_t>(count_[l]);
+    out_.signal[t] = none ? nan : std::sqrt(state_.signal[l] / count_[l]);
+    out_.count[t] = count_[l];
+    out_.freedom[t] = static_cast<float>(values > taken ? values - taken : 0);
     // Lobes of like terms, and widths along and across the tangent, stand in the order of a fit of
     // a table.
     std::vector<std::size_t> from;
@@ -639,7 +642,8 @@ TexelFit fit_texels(const TexelSamples& s,
       fit.columns.push_back({q.name, q.count > 1 ? static_cast<int>(c) : -1,
                              std::vector<float>(s.texels, nan), std::vector<float>(s.texels, nan),
                              std::vector<std::uint8_t>(s.texels)});
-  fit.rms.assign(s.texels, nan);
+  for (auto* column : {&fit.rms, &fit.signal, &fit.misfit}) column->assign(s.texels, nan);
+  for (auto* column : {&fit.count, &fit.freedom}) column->assign(s.texels, 0);
   fit.outcome.assign(s.texels, static_cast<std::uint8_t>(TexelOutcome::no_data));
   if (o.refine_normals) fit.normal.assign(3 * s.texels, nan);
   if (s.texels > 0) LaneFit(task, s, instruction_set, fit).fit_all();

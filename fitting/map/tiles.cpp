@@ -155,6 +155,7 @@ MapPlanes::MapPlanes(const Rectangle& part,
   if (!layout.normal.empty())
     for (const char* axis : {"X", "Y", "Z"}) numbers(fmt::format("normal.{}", axis));
   numbers("rms");
+  numbers("misfit");
   marks("outcome");
 }
 
@@ -186,6 +187,7 @@ void MapPlanes::put(const TexelFit& fit, const Rectangle& of, std::size_t first)
   }
   for (std::size_t k = 0; k * texels < fit.normal.size(); ++k) take(fit.normal.data() + k * texels);
   take(fit.rms.data());
+  take(fit.misfit.data());
   take(fit.outcome.data());
 }
 

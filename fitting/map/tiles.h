@@ -71,7 +71,7 @@ class MapPlanes {
   void put(const TexelFit&, const Rectangle& of, std::size_t first);
 
   /// Channels of files: PARAMETER, PARAMETER.std_error and PARAMETER.status with the colour last (kd.status.R); normal.X, .Y, .Z
-  /// where they are refined; rms, outcome.
+  /// where they are refined; rms, misfit, outcome.
   std::vector<ExrChannel> channels() const;
   /// All rows of a part within this one.
   void write(ExrWriter&, const Rectangle& part) const;

@@ -96,4 +96,15 @@ std::string stack_schema() {
   return schema_text<Stack>("Stack of images");
 }
 
+DirectionPair within(const DirectionPair& p, const Direction& normal) {
+  const Vector n = vector_of(normal);
+  const Vector t = vector_of(direction(Vector{1, 0, 0} - n.x * n));
+  const Vector b = cross(n, t);
+  const auto turned = [&](const Direction& d) {
+    const Vector v = vector_of(d);
+    return Direction{dot(v, t), dot(v, b), dot(v, n)};
+  };
+  return {turned(p.wi), turned(p.wo)};
+}
+
 }  // namespace gonio

@@ -15,6 +15,7 @@
 
 #include "base/names.h"
 #include "geometry/direction.h"
+#include "geometry/half_difference.h"
 #include "geometry/vector.h"
 
 namespace gonio {
@@ -86,6 +87,9 @@ struct Stack {
   /// Path of a file that the stack names.
   std::string path_of(const std::string& name) const;
 };
+
+/// Directions in the frame of a texel's normal, whose tangent is the map's x less its part along the normal.
+DirectionPair within(const DirectionPair&, const Direction& normal);
 
 /// Stack of a file; the images are not opened.  Whatever is wrong is bad_input: the file, the place as a JSON pointer [RFC 6901], what was
 /// found and what is expected there.

@@ -45,6 +45,40 @@ TEST(FitMapCommand, FitsAStackAndSaysWhatTheMapHolds) {
     EXPECT_NEAR(v, 0.15F, 0.03F);
 }
 
+/// The stack with the azimuths of all lights negated.
+void negate_lights(const Folder& f) {
+  auto j = nlohmann::ordered_json::parse(read_bytes(f / "s/stack.json"));
+  for (auto& image : j["images"]) image["phi_i"] = -image["phi_i"].get<double>();
+  f.write("s/stack.json", j.dump(2) + "\n");
+}
+
+TEST(FitMapCommand, StopsBeforeItFitsDirectionsThatAreNotTheImagesOwn) {
+  const Folder f;
+  make_stack(f);
+  negate_lights(f);
+  for (const char* more : {"", " --tile 0,0"}) {
+    const auto o = gonio(f, std::string("fit_map s/stack.json -o maps.exr") + more);
+    expect_one_line(o, 3, "s/stack.json: directions");
+    EXPECT_NE(o.err.find("phi_i becomes −φ"), o.err.npos) << o.err;
+    EXPECT_FALSE(fs::exists(f / "maps.exr"));
+  }
+  const auto o = gonio(f, "fit_map s/stack.json -o maps.exr --as-given --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.json()["warnings"][0].get<std::string>().find("azimuth is negated"), o.out.npos);
+}
+
+TEST(FitMapCommand, EndsWithExitCodeFourWhereMostTexelsDoNotConverge) {
+  const Folder f;
+  make_stack(f);
+  auto j = nlohmann::ordered_json::parse(read_bytes(f / "s/stack.json"));
+  while (j["images"].size() > 3) j["images"].erase(3);
+  f.write("s/stack.json", j.dump(2) + "\n");
+  const auto o = gonio(f, "fit_map s/stack.json -o maps.exr --json");
+  const auto ended = o.json()["texels"];
+  EXPECT_EQ(o.code == 0, ended["converged"] > ended["not_converged"]) << o.out;
+  EXPECT_GE(o.json()["rms"], 0);
+}
+
 TEST(FitMapCommand, PrintsOneDocumentForJson) {
   const Folder f;
   make_stack(f);

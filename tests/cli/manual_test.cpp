@@ -35,6 +35,7 @@ TEST(Manual, HasAPageForEachCommandThatManReadsWithoutAWarning) {
     if (name.empty()) continue;
     const std::string page = read_bytes(f / ("share/man/man1/gonio-" + name + ".1"));
     EXPECT_NE(page.find(".SH EXAMPLE"), page.npos) << name;
+    EXPECT_NE(page.find(".SH EXIT STATUS"), page.npos) << name;
     ++pages;
   }
   EXPECT_GT(pages, 20);
@@ -65,6 +66,10 @@ TEST(Manual, LetsBashCompleteCommandsOptionsAndWhatTheyTake) {
   EXPECT_EQ(offered(f, "gonio fit --metr", 3), "--metric\n");
   EXPECT_EQ(offered(f, "gonio fit --metric l2", 4), "l2_cosine\n");
   EXPECT_EQ(offered(f, "gonio shader --language w", 4), "wgsl\n");
+  EXPECT_NE(offered(f, "gonio fit --model lambert+gg", 4)
+                .find("lambert+ggx/smith_ggx.correlated/schlick"),
+            std::string::npos);
+  EXPECT_EQ(offered(f, "gonio fit --models al", 4), "all\n");
   EXPECT_EQ(offered(f, "gonio fit ''", 3), "\n") << "a table: bash offers files";
   EXPECT_EQ(offered(f, "gonio fit -o ''", 4), "\n") << "a file";
 }

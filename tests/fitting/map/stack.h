@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <functional>
+#include <optional>
 #include <random>
 #include <string>
 #include <vector>
@@ -46,6 +47,7 @@ struct StackOptions {
   Noise noise = Noise::none;
   double sigma = 0;  ///< a part of f, or of f NoL [1/sr]
   unsigned seed = 1;
+  std::optional<double> gamma = {};  ///< none: 1.5 to 2.5
 };
 
 /// Light all around, half of the views near the mirror direction.
@@ -88,7 +90,7 @@ inline Stack stack(const StackOptions& o) {
                          : name == "tangent"                  ? -40 + 170 * u
                          : name == "kd"                       ? 0.05 + 0.6 * u
                          : name == "f0"                       ? 0.03 + 0.3 * u
-                         : name == "gamma"                    ? 1.5 + u
+                         : name == "gamma"                    ? o.gamma.value_or(1.5 + u)
                          : name == "eta"                      ? 1.3 + 0.5 * u
                                                               : q.about->start;
         s.model.values[q.first + c] = s.truth[q.first + c][t] = x;

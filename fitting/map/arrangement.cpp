@@ -1,0 +1,136 @@
+#include "fitting/map/arrangement.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numeric>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+namespace {
+
+/// x and y of directions become others: a mirror image or a turn by quarters.
+struct Turn {
+  std::array<int, 4> to;  ///< x' = to₀ x + to₁ y, y' = to₂ x + to₃ y
+  std::string_view what;
+  std::string_view azimuth;  ///< what the azimuth becomes, φ being as given
+};
+constexpr std::array<Turn, 7> turns{
+    {{{1, 0, 0, -1}, "negated, or y points down", "−φ"},
+     {{-1, 0, 0, 1}, "counted from −x and backwards", "180° − φ"},
+     {{0, 1, 1, 0}, "counted from y, or x and y are exchanged", "90° − φ"},
+     {{0, -1, -1, 0}, "counted from −y and backwards", "270° − φ"},
+     {{0, -1, 1, 0}, "a quarter turn behind", "φ + 90°"},
+     {{0, 1, -1, 0}, "a quarter turn ahead", "φ − 90°"},
+     {{-1, 0, 0, -1}, "half a turn off", "φ + 180°"}}};
+
+/// \param vectors  [item][3][run], as light, view and normals are
+void turn(std::vector<float>& vectors, std::size_t run, const Turn& by) {
+  for (std::size_t at = 0; at + 3 * run <= vectors.size(); at += 3 * run)
+    for (std::size_t k = 0; k < run; ++k) {
+      float& x = vectors[at + k];
+      float& y = vectors[at + run + k];
+      const float was = x;
+      x = static_cast<float>(by.to[0]) * was + static_cast<float>(by.to[1]) * y;
+      y = static_cast<float>(by.to[2]) * was + static_cast<float>(by.to[3]) * y;
+    }
+}
+
+/// The values of the images in another order: those of image order[i] are taken for image i's.
+void reorder(TexelSample& s, const std::vector<std::size_t>& order) {
+  const std::size_t run = s.channels * s.texels;
+  const auto was = s.values;
+  for (std::size_t i = 0; i < s.images; ++i)
+    std::copy_n(was.begin() + static_cast<std::ptrdiff_t>(order[i] * run), run,
+                s.values.begin() + static_cast<std::ptrdiff_t>(i * run));
+}
+
+struct Arrangement {
+  TexelSample sample;
+  std::string what, cure;
+};
+
+/// Orders in which images are listed by mistake.
+std::vector<std::pair<std::vector<std::size_t>, std::string>> orders(std::size_t images) {
+  std::vector<std::size_t> given(images);
+  std::iota(given.begin(), given.end(), std::size_t{0});
+  std::vector<std::pair<std::vector<std::size_t>, std::string>> all;
+  if (images < 2) return all;
+  all.emplace_back(std::vector(given.rbegin(), given.rend()), "the images are in reverse order");
+  auto further = given, back = given;
+  std::ranges::rotate(further, further.begin() + 1);
+  std::ranges::rotate(back, back.end() - 1);
+  all.emplace_back(further, "each image stands one place late");
+  all.emplace_back(back, "each image stands one place early");
+  // 1, 10, 11, 2 … for 1, 2, …, from 0 and from 1.
+  for (const std::size_t from : {std::size_t{0}, std::size_t{1}}) {
+    auto sorted = given;
+    std::ranges::sort(sorted, {}, [&](std::size_t i) { return std::to_string(i + from); });
+    if (sorted == given) continue;
+    std::vector<std::size_t> inverse(images);
+    for (std::size_t i = 0; i < images; ++i) inverse[sorted[i]] = i;
+    for (auto* order : {&inverse, &sorted})
+      all.emplace_back(*order, "the images are ordered as words, 1, 10, 2, and not as numbers");
+  }
+  return all;
+}
+
+std::vector<Arrangement> arrangements(const TexelSample& s) {
+  std::vector<Arrangement> all;
+  const std::size_t run = s.shared ? 1 : s.texels;
+  const auto add = [&](std::string_view whose, std::string_view key, const Turn& by,
+                       std::initializer_list<std::vector<float> TexelSample::*> which) {
+    Arrangement a{s, fmt::format("{} is {}", whose, by.what),
+                  fmt::format("{} becomes {}", key, by.azimuth)};
+    for (const auto vectors : which)
+      turn(a.sample.*vectors, vectors == &TexelSample::normal ? s.texels : run, by);
+    all.push_back(std::move(a));
+  };
+  for (const auto& by : turns) {
+    add("the light's azimuth", "phi_i", by, {&TexelSample::light});
+    add("the view's azimuth", "phi_o", by, {&TexelSample::view});
+    if (s.normal.empty())
+      add("the azimuth of light and view", "φ, as phi_i and phi_o,", by,
+          {&TexelSample::light, &TexelSample::view});
+    else
+      add("the normals' azimuth", "φ, the azimuth of X and Y,", by, {&TexelSample::normal});
+  }
+  for (auto& [order, what] : orders(s.images)) {
+    Arrangement a{s, what, "list them in the order of their directions"};
+    reorder(a.sample, order);
+    all.push_back(std::move(a));
+  }
+  return all;
+}
+
+}  // namespace
+
+OtherArrangement other_arrangement(const TexelSample& s,
+                                   const TexelOptions& o,
+                                   const TexelFit& given) {
+  const auto all = arrangements(s);
+  std::vector<LeftLess> seen(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
+    const TexelFit other = fit_sample(all[k].sample, o);
+    auto left = deviations_left(other);
+    for (std::size_t t = 0; t < s.texels;
+         ++t)  // what it puts below the surface is not thereby explained
+      if (other.count[t] < 0.97F * given.count[t])
+        left[t] = std::numeric_limits<double>::quiet_NaN();
+    seen[k] = compare_left(left, deviations_left(given), least_left(given));
+    if (seen[k].texels * 10 < s.texels * 5) seen[k] = {};
+  });
+  OtherArrangement best;
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    // The first of those that are as good.
+    if (seen[k].lower < 0.8 || seen[k].ratio > 0.9 || seen[k].ratio > 0.98 * best.ratio) continue;
+    best = {all[k].what, all[k].cure, seen[k].ratio, seen[k].ratio <= 0.5 && seen[k].lower >= 0.9};
+  }
+  return best;
+}
+
+}  // namespace gonio

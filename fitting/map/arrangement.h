@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// Arrangements of a stack's directions and images that explain it better than the one that it has.
+
+#include <string>
+
+#include "fitting/map/sample.h"
+
+namespace gonio {
+
+/// Arrangement of a stack's directions, or of its images, under which the texels' fits leave less.
+struct OtherArrangement {
+  std::string what;  ///< as "the light's azimuth is negated"; empty: none leaves less
+  std::string cure;  ///< what to change in the stack
+  /// Median over texels of the rms that is left under it, over the rms that is left as given.
+  double ratio = 1;
+  /// Half as much or less is left, in nearly every texel: the stack is not as it says.
+  bool sure = false;
+};
+
+/// The arrangement that leaves least, if less than the given one.
+/// \param given  fit of the sample as it is
+OtherArrangement other_arrangement(const TexelSample&, const TexelOptions&, const TexelFit& given);
+
+}  // namespace gonio

@@ -1,0 +1,159 @@
+#include "fitting/map/sample.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "brdf/model/evaluate.h"
+#include "geometry/half_difference.h"
+#include "stack/stack.h"
+
+namespace gonio {
+namespace {
+
+constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+
+Direction direction_at(const std::vector<float>& from, std::size_t at, std::size_t run) {
+  return direction(Vector{double{from[at]}, double{from[at + run]}, double{from[at + 2 * run]}});
+}
+
+}  // namespace
+
+double median_of(std::vector<double> of) {
+  if (of.empty()) return unknown;
+  const auto middle = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
+  std::ranges::nth_element(of, middle);
+  return *middle;
+}
+
+double cosine_of(const TexelSample& s, std::size_t image, std::size_t t) {
+  const std::size_t run = s.shared ? 1 : s.texels;
+  const Direction l = direction_at(s.light, 3 * image * run + (s.shared ? 0 : t), run);
+  return s.normal.empty() ? l.z : dot(direction_at(s.normal, t, s.texels), l);
+}
+
+TexelFit fit_sample(const TexelSample& s, const TexelOptions& o) {
+  if (!s.of_light) return fit_texels(s.spans(), o);
+  TexelSample f_r = s;
+  for (std::size_t i = 0; i < s.images; ++i)
+    for (std::size_t t = 0; t < s.texels; ++t) {
+      const double c = cosine_of(s, i, t);
+      const float by = c >= least_cosine ? static_cast<float>(1 / c) : std::nanf("");
+      for (std::size_t k = 0; k < s.channels; ++k)
+        f_r.values[(i * s.channels + k) * s.texels + t] *= by;
+    }
+  return fit_texels(f_r.spans(), o);
+}
+
+double variance_left(const TexelFit& f, std::size_t t) {
+  if (f.freedom[t] < 3 || f.outcome[t] == static_cast<std::uint8_t>(TexelOutcome::no_data))
+    return unknown;
+  const double rms = double{f.rms[t]};
+  return rms * rms * double{f.count[t]} / double{f.freedom[t]};
+}
+
+std::vector<double> deviations_left(const TexelFit& f) {
+  std::vector<double> all;
+  for (std::size_t t = 0; t < f.rms.size(); ++t) all.push_back(std::sqrt(variance_left(f, t)));
+  return all;
+}
+
+std::vector<double> least_left(const TexelFit& f) {
+  std::vector<double> all;
+  for (const float signal : f.signal) all.push_back(1e-3 * double{signal});
+  return all;
+}
+
+LeftLess compare_left(std::vector<double> now,
+                      std::vector<double> before,
+                      const std::vector<double>& least) {
+  std::vector<double> ratios;
+  std::size_t lower = 0;
+  for (std::size_t t = 0; t < before.size(); ++t) {
+    if (std::isnan(before[t]) || std::isnan(now[t])) continue;
+    for (auto* rms : {&now[t], &before[t]}) *rms = std::max(*rms, least[t]);
+    ratios.push_back(now[t] / before[t]);
+    lower += now[t] < before[t];
+  }
+  LeftLess c;
+  c.texels = ratios.size();
+  if (ratios.empty()) return c;
+  c.lower = static_cast<double>(lower) / static_cast<double>(ratios.size());
+  c.ratio = median_of(std::move(ratios));
+  return c;
+}
+
+void leave_out(TexelSample& s, std::size_t image) {
+  const std::size_t run = s.channels * s.texels;
+  std::fill_n(s.values.begin() + static_cast<std::ptrdiff_t>(image * run), run,
+              std::numeric_limits<float>::quiet_NaN());
+}
+
+std::vector<double> predicted(const TexelSample& s, const TexelFit& f, const TexelTask& task) {
+  std::vector<double> all(s.images * s.channels * s.texels, unknown);
+  BoundModel model = task.problem.start;
+  std::vector<FrameAngles<double>> angles(s.images);
+  const auto& normals = f.normal.empty() ? s.normal : f.normal;
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    for (std::size_t k = 0; k < f.columns.size(); ++k)
+      if (!std::isnan(f.columns[k].value[t])) model.values[k] = double{f.columns[k].value[t]};
+    Direction n;
+    if (!normals.empty()) n = direction_at(normals, t, s.texels);
+    if (std::isnan(n.z)) continue;
+    const std::size_t run = s.shared ? 1 : s.texels;
+    for (std::size_t i = 0; i < s.images; ++i) {
+      const std::size_t at = 3 * i * run + (s.shared ? 0 : t);
+      const DirectionPair pair{direction_at(s.light, at, run), direction_at(s.view, at, run)};
+      angles[i] = frame_angles(normals.empty() ? pair : within(pair, n));
+    }
+    const auto f_r = evaluate(model, angles);
+    for (std::size_t i = 0; i < s.images; ++i)
+      for (std::size_t c = 0; c < s.channels; ++c)
+        if (angles[i].nol > 0 && angles[i].nov > 0)
+          all[(i * s.channels + c) * s.texels + t] = f_r[c][i];
+  }
+  return all;
+}
+
+std::vector<double> differences(const TexelSample& s,
+                                std::size_t image,
+                                std::size_t texel,
+                                const std::vector<double>& f_r,
+                                Metric metric) {
+  std::vector<double> all;
+  const double nol = cosine_of(s, image, texel);
+  for (std::size_t c = 0; c < s.channels; ++c) {
+    const std::size_t at = (image * s.channels + c) * s.texels + texel;
+    const double y = double{s.values[at]} / (s.of_light ? nol : 1), f = f_r[at];
+    if (!(y >= 0 && f >= 0 && nol >= least_cosine)) continue;
+    if (metric == Metric::l2_cosine)
+      all.push_back((y - f) * nol);
+    else if (y > 0 && f > 0)
+      all.push_back(std::log(y / f));
+  }
+  return all;
+}
+
+double rms_of_all(const std::vector<double>& all) {
+  double sum = 0;
+  for (const double x : all) sum += x * x;
+  return std::sqrt(sum / static_cast<double>(all.size()));  // NaN of none
+}
+
+std::vector<double> unseen_errors(const TexelSample& s, const TexelOptions& o) {
+  constexpr std::size_t parts = 4;
+  const TexelTask task(o, s.channels);
+  std::vector<std::vector<double>> differ(s.texels);
+  for (std::size_t k = 0; k < parts; ++k) {
+    TexelSample less = s;
+    for (std::size_t i = k; i < s.images; i += parts) leave_out(less, i);
+    const auto f_r = predicted(s, fit_sample(less, o), task);
+    for (std::size_t t = 0; t < s.texels; ++t)
+      for (std::size_t i = k; i < s.images; i += parts)
+        for (const double d : differences(s, i, t, f_r, o.metric)) differ[t].push_back(d);
+  }
+  std::vector<double> errors;
+  for (const auto& d : differ) errors.push_back(rms_of_all(d));
+  return errors;
+}
+
+}  // namespace gonio

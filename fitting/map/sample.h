@@ -1,0 +1,66 @@
+#pragma once
+/// \file
+/// Some texels of a stack that are fitted in several ways, and what their fits leave.
+
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "fitting/map/task.h"
+#include "fitting/map/texels.h"
+
+namespace gonio {
+
+/// Texels with samples of their own, which may be rearranged.
+struct TexelSample {
+  std::size_t texels = 0, images = 0, channels = 0;
+  bool shared = true;
+  bool of_light = false;  ///< values are times n·l, as a camera has them
+  std::vector<float> values, light, view, normal;
+
+  TexelSamples spans() const {
+    return {texels, images, channels, values, shared, light, view, normal};
+  }
+};
+
+inline constexpr std::size_t few_texels = 20;  ///< with fewer nothing is judged
+
+double median_of(std::vector<double> of);
+
+/// n·l of a texel in an image; NaN of a normal that is none.
+double cosine_of(const TexelSample&, std::size_t image, std::size_t texel);
+TexelFit fit_sample(const TexelSample&, const TexelOptions&);
+/// Without the values of an image.
+void leave_out(TexelSample&, std::size_t image);
+
+/// Square of what is left of a texel by each value that is free to differ; NaN where that is too few.
+double variance_left(const TexelFit&, std::size_t texel);
+/// Root of that, by texel.
+std::vector<double> deviations_left(const TexelFit&);
+
+/// How much less a fit leaves than another, texel by texel.
+struct LeftLess {
+  double ratio = 1;  ///< median of the ratios of rms
+  double lower = 0;  ///< part of the texels where it leaves less
+  std::size_t texels = 0;
+};
+/// What no camera tells from a texel's light: less than that is not compared.
+std::vector<double> least_left(const TexelFit&);
+/// Of rms by texel, what is NaN left out.
+LeftLess compare_left(std::vector<double> now,
+                      std::vector<double> before,
+                      const std::vector<double>& least);
+
+/// f_r that a fit says, [image][channel][texel]; NaN where light or view is below the surface.
+std::vector<double> predicted(const TexelSample&, const TexelFit&, const TexelTask&);
+/// Differences between an image's light and what a fit says, or between their logarithms; nothing where either is none.
+std::vector<double> differences(const TexelSample&,
+                                std::size_t image,
+                                std::size_t texel,
+                                const std::vector<double>& f_r,
+                                Metric);
+double rms_of_all(const std::vector<double>&);
+/// rms of each texel's differences in images that its fit has not seen, a fourth of them at a time.
+std::vector<double> unseen_errors(const TexelSample&, const TexelOptions&);
+
+}  // namespace gonio

@@ -1,0 +1,52 @@
+#pragma once
+/// \file
+/// What some texels of a stack say before a map of it is fitted: are its directions the right ones, does the model fit, and how
+/// large is the noise?
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "fitting/map/arrangement.h"
+#include "fitting/map/texels.h"
+#include "stack/stack_reader.h"
+
+namespace gonio {
+
+/// Image that no fit explains together with the others.
+struct OddImage {
+  std::size_t image = 0;
+  double ratio =
+      1;  ///< median over texels of the rms of ratios that is left without it, over that with it
+  double brightness = 1;  ///< median of its values over those that the others say
+};
+
+struct StackSurvey {
+  std::size_t texels = 0;  ///< that were looked at and have values
+  OtherArrangement arrangement;
+  TexelNoise noise;
+  std::string better;  ///< the model that leaves less than the one asked for; empty: none
+  double better_ratio =
+      1;  ///< median over texels of the rms that it leaves, over that of the one asked for
+  std::vector<OddImage> odd;
+};
+
+/// Fits texels under other arrangements, by other models, which images judge that they have not seen, and without each image.
+///
+/// - Arrangements: the azimuths of light, view or both mirrored, exchanged or turned by quarters, the normals' likewise, and the
+///   images in another order (reversed, one further, by the alphabet).  Where nothing changes by that, as for flat isotropic
+///   surfaces seen from above, nothing is said.
+/// - Noise: what the best of the models leaves, in proportion to the light or the same for all values, whichever is more alike over
+///   the texels.  Fewer than 20 texels, or fewer than three values more than unknowns: unknown.
+StackSurvey survey(const TexelSamples&, const TexelOptions&);
+/// Of some 256 texels of a few rows spread over the map.
+StackSurvey survey(const StackReader&, const TexelOptions&);
+
+/// rms of each texel over the most that noise leaves; above 1 the model does not fit.  NaN where that is not known.
+std::vector<float> misfit_of(const TexelFit&, const TexelNoise&);
+
+/// A line each for people: what is wrong, and the cure.
+std::vector<std::string> warnings_of(const StackSurvey&, const Stack&, std::string_view model);
+
+}  // namespace gonio

@@ -1,0 +1,209 @@
+// What a sample of a stack's texels says of its directions, its model and its images.
+#include "fitting/map/survey.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <numeric>
+
+#include "fitting/map/stack.h"
+#include "fitting/map/stacks.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+using namespace test;
+using MadeUp = test::Stack;
+using Loud = test::Noise;
+
+constexpr unsigned seeds = 20;
+
+MadeUp made_up(unsigned seed,
+               Loud noise = Loud::relative,
+               std::size_t images = 24,
+               const std::string& model = "lambert+ggx/smith_ggx.correlated/schlick") {
+  StackOptions o;
+  o.model = model;
+  o.texels = 96;
+  o.images = images;
+  o.noise = noise;
+  o.sigma = noise == Loud::relative ? 0.02 : 0.003;
+  o.seed = seed;
+  o.gamma = 1.4;
+  return stack(o);
+}
+
+StackSurvey look(const MadeUp& s, Metric metric = Metric::l2_cosine) {
+  TexelOptions o;
+  o.metric = metric;
+  return survey(s.samples(), o);
+}
+
+/// Light or view of all images becomes another.
+void change(std::vector<float>& directions, const std::function<void(float& x, float& y)>& by) {
+  for (std::size_t i = 0; i + 2 < directions.size(); i += 3) by(directions[i], directions[i + 1]);
+}
+
+TEST(Survey, SaysNothingOfAStackThatIsAsItSays) {
+  for (unsigned seed = 1; seed <= seeds; ++seed)
+    for (const auto noise : {Loud::none, Loud::relative, Loud::of_light})
+      for (const std::size_t images : {10, 24}) {
+        if (seed % 4 != images % 4 && !std::getenv("GONIO_LONG")) continue;
+        const auto found = look(made_up(seed, noise, images));
+        SCOPED_TRACE(testing::Message() << seed << " " << static_cast<int>(noise) << " " << images);
+        EXPECT_EQ(found.arrangement.what, "") << found.arrangement.ratio;
+        EXPECT_EQ(found.better, "") << found.better_ratio;
+        EXPECT_TRUE(found.odd.empty()) << found.odd[0].image << " " << found.odd[0].ratio;
+        EXPECT_FALSE(std::isnan(found.noise.level));
+      }
+}
+
+TEST(Survey, FindsDirectionsThatAreNotTheImagesOwn) {
+  const auto negated = [](float&, float& y) { y = -y; };
+  const auto exchanged = [](float& x, float& y) { std::swap(x, y); };
+  const auto quarter = [](float& x, float& y) {
+    std::swap(x, y);
+    x = -x;
+  };
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    const MadeUp right = made_up(seed);
+    const auto expect = [&](MadeUp s, const char* what) {
+      const auto found = look(s).arrangement;
+      EXPECT_TRUE(found.sure) << seed << " " << what << ": " << found.ratio;
+      EXPECT_NE(found.what.find(what), std::string::npos) << seed << " " << found.what;
+    };
+    for (const auto which : {&MadeUp::light, &MadeUp::view}) {
+      MadeUp s = right;
+      change(s.*which, negated);
+      expect(s, "negated");
+      s = right;
+      change(s.*which, exchanged);
+      expect(s, "exchanged");
+      s = right;
+      change(s.*which, quarter);
+      expect(s, "quarter");
+    }
+    // Values of another image under each pair of directions.
+    const std::size_t run = right.texels * 3;
+    const auto ordered = [&](const std::vector<std::size_t>& order) {
+      MadeUp s = right;
+      for (std::size_t i = 0; i < s.images; ++i)
+        std::copy_n(right.values.begin() + static_cast<std::ptrdiff_t>(order[i] * run), run,
+                    s.values.begin() + static_cast<std::ptrdiff_t>(i * run));
+      return s;
+    };
+    std::vector<std::size_t> order(right.images);
+    std::iota(order.rbegin(), order.rend(), std::size_t{0});
+    expect(ordered(order), "reverse");
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::rotate(order, order.begin() + 1);
+    expect(ordered(order), "place early");
+    std::iota(order.begin(), order.end(), std::size_t{0});
+    std::ranges::sort(order, {}, [](std::size_t i) { return std::to_string(i + 1); });
+    expect(ordered(order), "as words");
+  }
+}
+
+TEST(Survey, SaysNothingOfAMirrorImageThatChangesNoValue) {
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    MadeUp s = made_up(seed);
+    for (const auto which : {&MadeUp::light, &MadeUp::view})
+      change(s.*which, [](float&, float& y) { y = -y; });
+    EXPECT_EQ(look(s).arrangement.what, "") << seed;
+  }
+}
+
+TEST(Survey, NamesAModelThatFitsBetter) {
+  const unsigned few = std::getenv("GONIO_LONG") ? seeds : 4;
+  for (unsigned seed = 1; seed <= few; ++seed) {
+    const auto s = made_up(seed, Loud::relative, 64, "lambert+gtr/smith_ggx.correlated/schlick");
+    EXPECT_NE(look(s, Metric::log).better, "") << seed;
+  }
+}
+
+TEST(Survey, KnowsTheNoiseOfTheRightModelAndTheMisfitOfAWrongOne) {
+  const auto part = [](const MadeUp& s, const std::string& model) {
+    TexelOptions o;
+    o.model = model;
+    o.metric = Metric::log;
+    const auto found = survey(s.samples(), o);
+    const auto misfit = misfit_of(fit_texels(s.samples(), o), found.noise);
+    return static_cast<double>(std::ranges::count_if(misfit, [](float m) { return m > 1; })) /
+           static_cast<double>(s.texels);
+  };
+  double right = 0, wrong = 0;
+  const unsigned few = std::getenv("GONIO_LONG") ? seeds : 4;
+  for (unsigned seed = 1; seed <= few; ++seed) {
+    const auto s = made_up(seed, Loud::relative, 64, "lambert+gtr/smith_ggx.correlated/schlick");
+    right += part(s, "lambert+gtr/smith_ggx.correlated/schlick") / few;
+    wrong += part(s, "lambert+ggx/smith_ggx.correlated/schlick") / few;
+  }
+  EXPECT_LE(right, 0.02);
+  EXPECT_GE(wrong, 0.95);
+}
+
+TEST(Survey, NamesAnImageWhoseLampWasOffAndOneOfAnotherPlace) {
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    const MadeUp right = made_up(seed);
+    const std::size_t run = right.texels * 3, image = seed % right.images;
+    MadeUp s = right;
+    for (std::size_t k = 0; k < run; ++k) s.values[image * run + k] *= 0.02F;
+    auto found = look(s).odd;
+    ASSERT_EQ(found.size(), 1U) << seed;
+    EXPECT_EQ(found[0].image, image) << seed;
+    EXPECT_NEAR(found[0].brightness, 0.02, 0.01) << seed;
+    s = right;  // shifted by some texels
+    const auto at = s.values.begin() + static_cast<std::ptrdiff_t>(image * run);
+    std::rotate(at, at + 5, at + static_cast<std::ptrdiff_t>(run));
+    found = look(s).odd;
+    ASSERT_FALSE(found.empty()) << seed;
+    EXPECT_EQ(found[0].image, image) << seed;
+  }
+}
+
+TEST(Survey, OfFewTexelsOrImagesKnowsNothing) {
+  MadeUp s = made_up(1);
+  s.texels = 96;
+  std::fill(s.values.begin(), s.values.end(), std::nanf(""));
+  EXPECT_EQ(look(s).texels, 0U);
+  EXPECT_TRUE(std::isnan(look(made_up(1, Loud::none, 2)).noise.level));
+}
+
+TEST(Survey, OfAStackOfFilesIsOfRowsAllOverItAlsoOfLightAndNormals) {
+  const Folder f;
+  Image normals;
+  normals.width = map_width;
+  normals.height = map_height;
+  normals.channels = {"X", "Y", "Z"};
+  normals.planes.resize(3);
+  for (std::size_t t = 0; t < map_width * map_height; ++t) {
+    const float x = 0.3F * std::sin(0.7F * static_cast<float>(t % map_width)),
+                y = 0.3F * std::sin(0.9F * static_cast<float>(t / map_width));
+    normals.planes[0].push_back(x);
+    normals.planes[1].push_back(y);
+    normals.planes[2].push_back(std::sqrt(1 - x * x - y * y));
+  }
+  write_exr(f / "n.exr", normals);
+  StackSynthOptions o;
+  o.noise = 0.02;
+  o.values = StackValues::f_r_cosine;
+  o.normals = f / "n.exr";
+  const std::string path = known_stack(f, "s", o);
+  const auto right = survey(StackReader(read_stack(path)), {});
+  EXPECT_GE(right.texels, 80U);
+  EXPECT_EQ(right.arrangement.what, "") << right.arrangement.ratio;
+  EXPECT_TRUE(warnings_of(right, read_stack(path), "m").empty());
+  // The normals of another convention, whose y points down.
+  for (float& y : normals.planes[1]) y = -y;
+  write_exr(f / "s/normals.exr", normals);
+  const auto wrong = survey(StackReader(read_stack(path)), {});
+  EXPECT_TRUE(wrong.arrangement.sure) << wrong.arrangement.ratio;
+  EXPECT_NE(wrong.arrangement.what.find("normals' azimuth is negated"), std::string::npos)
+      << wrong.arrangement.what;
+  EXPECT_EQ(warnings_of(wrong, read_stack(path), "m").size(), 1U);
+}
+
+}  // namespace
+}  // namespace gonio
