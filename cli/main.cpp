@@ -58,6 +58,7 @@ int run(int argc, char** argv) {
   gonio::cli::add_fit(line);
   gonio::cli::add_gather(line);
   gonio::cli::add_batch(line);
+  gonio::cli::add_stack(line);
   gonio::cli::add_fit_map(line);
   gonio::cli::add_compare(line);
   gonio::cli::add_convert(line);

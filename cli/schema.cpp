@@ -12,6 +12,7 @@
 #include "fitting/batch/gather.h"
 #include "fitting/choice/document.h"
 #include "fitting/export/export.h"
+#include "fitting/export/map_export.h"
 #include "fitting/map/fit_map.h"
 #include "fitting/map/gather.h"
 #include "fitting/result/document.h"
@@ -59,6 +60,7 @@ std::vector<std::pair<std::string, std::function<std::string()>>> schemas() {
       {"map_tiles", map_tiles_schema},
       {"compare", comparison_schema},
       {"export", export_schema},
+      {"map_export", map_export_schema},
       {"shader", shader::shader_schema},
       {"audit", audit_schema},
       {"stability", stability::answer_schema},

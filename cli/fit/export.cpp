@@ -11,6 +11,7 @@
 #include "brdf/model/fitted_model.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
+#include "fitting/export/map_export.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,6 +52,30 @@ void print(const Export& e) {
                                       100 * e.tolerance));
 }
 
+/// A map's textures.
+Exit run_map(const ExportCall& o) {
+  if (o.target != ExportTarget::gltf)
+    throw wrong_usage(fmt::format("--to {}: a map is written for gltf", name_of(o.target)));
+  OutputFile out(o.output);
+  Progress progress(o.quiet);
+  progress("exporting");
+  std::string file;
+  const MapExport e = export_map(o.fit, file);
+  out.write(file);
+  out.commit();
+  progress.clear();
+  if (o.json) {
+    fmt::print("{}", to_json(e));
+    return Exit::done;
+  }
+  say("textures  {} × {}, {} texels metal{}\n", e.width, e.height, e.metals,
+      e.unknown ? fmt::format(", {} unknown", e.unknown) : "");
+  say("residual  {:.3g} % off (RMS) in the middle of the texels, {:.3g} % in one of 20\n",
+      100 * e.median_residual, 100 * e.high_residual);
+  for (const auto& l : e.lost) say_below("lost      ", l);
+  return Exit::done;
+}
+
 Exit run(const ExportCall& o) {
   use(o);
   if (!std::isfinite(o.tolerance) || o.tolerance < 0)
@@ -58,6 +83,7 @@ Exit run(const ExportCall& o) {
   if (o.preview && !can_preview(o.target))
     throw wrong_usage(fmt::format("--preview: found target {}, expected gltf", name_of(o.target)));
   check_outputs({o.fit}, {o.output});
+  if (is_map(o.fit)) return run_map(o);
   OutputFile out(o.output);
   Progress progress(o.quiet);
   progress("exporting");
@@ -86,7 +112,7 @@ void add_export(CommandLine& line) {
                                "Writes a fit as another program's material, says how far that is "
                                "from the fit, and keeps the fit in the file",
                                "gonio export fit.json --to gltf -o paint.gltf", run);
-  c.option("FIT", o->fit, "Document of a fit").required();
+  c.option("FIT", o->fit, "Document of a fit, or the map of gonio fit_map (gltf)").required();
   c.option("--to", o->target, "Format of the file").required();
   c.option("--tolerance", o->tolerance,
            "Distance (RMS, relative) above which parameters are fitted again in the target's model")

@@ -40,6 +40,7 @@ void add_shader(CommandLine&);
 void add_plan(CommandLine&);
 void add_verify(CommandLine&);
 void add_render(CommandLine&);
+void add_stack(CommandLine&);
 void add_fit_map(CommandLine&);
 void add_schema(CommandLine&);
 void add_manual(CommandLine&);

@@ -49,7 +49,8 @@ class ImageFile {
   std::vector<std::string> channels_;
 };
 
-/// Image of a path: OpenEXR of one part, scan lines or tiles, or an array of NumPy's.  At most `longest_side` pixels wide or high.
-std::unique_ptr<ImageFile> open_image(const std::string& path);
+/// Image of a path: OpenEXR of one part, scan lines or tiles, an array of NumPy's, or a PNG of light.  At most `longest_side` pixels wide or high.
+/// \param linear  said of a PNG that does not say that its numbers are light
+std::unique_ptr<ImageFile> open_image(const std::string& path, bool linear = false);
 
 }  // namespace gonio

@@ -23,7 +23,7 @@ bool write(png_struct* png,
   png_set_IHDR(png, info, static_cast<png_uint_32>(image.width),
                static_cast<png_uint_32>(image.height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
                PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
+  if (image.is_srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
   png_set_text(png, info, text.data(), static_cast<int>(text.size()));
   png_write_info(png, info);
   for (std::size_t y = 0; y < image.height; ++y)

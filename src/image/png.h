@@ -14,7 +14,8 @@ struct PngImage {
   std::size_t width = 0, height = 0;
   std::vector<std::array<unsigned char, 3>> pixels;  ///< row by row from the top, sRGB
   std::vector<std::pair<std::string, std::string>>
-      text;  ///< keyword (1 to 79 letters), text; Latin-1
+      text{};           ///< keyword (1 to 79 letters), text; Latin-1
+  bool is_srgb = true;  ///< else they are numbers, and no colours
 };
 
 /// Bytes of that file.

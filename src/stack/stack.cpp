@@ -45,7 +45,7 @@ struct Description<SideMap<side>> {
 };
 template <>
 inline constexpr auto description<StackImage> =
-    std::tuple{Field{"path", &StackImage::path, "of an OpenEXR file or an array of NumPy's, linear",
+    std::tuple{Field{"path", &StackImage::path, "of an OpenEXR file, an array of NumPy's or a PNG of 16 bits, linear",
                      not_empty},
                by_key(&StackImage::light), by_key(&StackImage::view),
                Field{"scale", &StackImage::scale, "what its numbers are multiplied with",
@@ -69,6 +69,8 @@ struct Description<Stack> {
               not_empty),
         field("normals", if_there(&Stack::normals),
               "path of an image with the normal of each texel, linear in [-1, 1]", not_empty),
+        field("linear", &Stack::linear,
+              "images in PNG are light, though they do not say so (gAMA 1)", or_default),
         field("images", &Stack::images, "one for each pair of light and view", Entries{1, 10'000}),
         field("truth", if_there(&Stack::truth), "what gonio made the stack from")};
   }

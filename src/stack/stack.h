@@ -81,6 +81,7 @@ struct Stack {
   std::optional<std::vector<std::string>>
       channels;  ///< of each image, one or three; none: R, G, B, or the only one
   std::optional<std::string> normals;  ///< path of an image as that of SideMap; none: all are z
+  bool linear = false;                 ///< images in PNG are light, whatever they say of themselves
   std::vector<StackImage> images;
   std::optional<StackTruth> truth;
 

@@ -9,6 +9,7 @@
 #include "base/file.h"
 #include "base/sha256.h"
 #include "base/whole_loop.h"
+#include "image/png_file.h"
 #include "table/table.h"
 
 #include <fmt/format.h>
@@ -59,7 +60,7 @@ StackPart::Piece StackPart::piece(std::size_t k) const {
 }
 
 std::unique_ptr<ImageFile> StackReader::open(const std::string& path) {
-  auto file = open_image(path);
+  auto file = open_image(path, stack_.linear);
   if (width_ == 0) {
     width_ = file->width();
     height_ = file->height();
@@ -77,7 +78,11 @@ std::size_t StackReader::vectors(const std::string& name) {
   const std::string path = stack_.path_of(name);
   const auto [number, is_new] = map_number_.try_emplace(path, maps_.size());
   if (!is_new) return number->second;
-  const auto stamp = InputFile(path).stamp();
+  InputFile vectors(path);
+  if (is_png(vectors.peek(8)))
+    throw bad_input(path, "byte 0", "a PNG, whose numbers are not below 0",
+                    "an image of vectors in OpenEXR or an array of NumPy's");
+  const auto stamp = vectors.stamp();
   auto file = open(path);
   auto channels = channels_among(*file, xyz);
   if (channels.empty()) channels = channels_among(*file, rgb);
@@ -154,7 +159,7 @@ void StackReader::read(const Source& source, const Rectangle& part, std::vector<
   std::vector<float*> planes;
   for (std::size_t c = 0; c < source.channels.size(); ++c)
     planes.push_back(to.data() + c * part.size());
-  const auto opened = source.file ? nullptr : open_image(source.path);
+  const auto opened = source.file ? nullptr : open_image(source.path, stack_.linear);
   ImageFile& file = source.file ? *source.file : *opened;
   expect_unchanged(source, InputFile(source.path));
   file.read(part, source.channels, planes);

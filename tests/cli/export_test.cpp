@@ -1,8 +1,13 @@
 // gonio export: what it writes, what it says of it, what it refuses.
 #include <cmath>
+#include <filesystem>
+#include <tuple>
 
+#include "base/base64.h"
 #include "cli/outside.h"
 #include "cli/program.h"
+#include "image/display.h"
+#include "png_pixels.h"
 
 namespace gonio::test {
 namespace {
@@ -92,6 +97,61 @@ TEST(ExportCommand, WritesWhatKhronosValidatorFindsNoFaultWith) {
   beyond["materials"][0]["pbrMetallicRoughness"]["roughnessFactor"] = 1.5;
   f.write("beyond.gltf", beyond.dump());
   EXPECT_NE(outside_faults(f, "beyond.gltf")->find("VALUE_NOT_IN_RANGE"), std::string::npos);
+}
+
+TEST(ExportCommand, WritesAMapAsTexturesThatShowItsFits) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(
+          f,
+          "synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.25 f0=0.04 kd=0.5,0.2,0.1 "
+          "--layout map --size 6,4 --images 24 -o s")
+          .code,
+      0);
+  ASSERT_EQ(gonio(f, "fit_map s/stack.json -o maps.exr --refine-normals").code, 0);
+  const auto o = gonio(f, "export maps.exr --to gltf -o m.gltf --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto said = o.json();
+  EXPECT_EQ(said["schema"], "gonio.map_export/1");
+  EXPECT_EQ(said["width"], 6);
+  EXPECT_EQ(said["metals"], 0);
+  EXPECT_NEAR(said["ior"], 1.5, 0.01);
+  EXPECT_LT(said["high_residual"], 0.06);
+  EXPECT_EQ(outside_faults(f, "m.gltf").value_or(""), "");
+  const auto file = nlohmann::json::parse(read_bytes(f / "m.gltf"));
+  EXPECT_EQ(file["textures"].size(), 4U);
+  const auto pixels = [&](std::size_t k) {
+    const auto uri = file["images"][k]["uri"].get<std::string>();
+    return png_pixels(from_base64(uri.substr(uri.find(',') + 1))).pixels;
+  };
+  for (const auto& [base, rough, normal] : {std::tuple{pixels(0)[7], pixels(1)[7], pixels(3)[7]}}) {
+    EXPECT_NEAR(base[0], srgb_byte(0.5), 1);
+    EXPECT_NEAR(base[1], srgb_byte(0.2), 1);
+    EXPECT_NEAR(rough[1], 255 * 0.5, 1) << "the root of alpha";
+    EXPECT_EQ(rough[2], 0);
+    EXPECT_NEAR(normal[0], 127.5, 1);
+    EXPECT_EQ(normal[2], 255);
+  }
+  expect_one_line(gonio(f, "inspect maps.exr"), 3, "a map of 6 × 4 fits");
+  expect_one_line(gonio(f, "export maps.exr --to mitsuba -o m.xml"), 2, "gltf");
+  expect_one_line(gonio(f, "export s/image_000.exr --to gltf -o m2.gltf"), 3, "image_000.exr");
+  EXPECT_FALSE(std::filesystem::exists(f / "m2.gltf"));
+}
+
+TEST(ExportCommand, WritesAMetalsMapAsMetal) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f,
+            "synth ggx/smith_ggx.correlated/schlick --set alpha=0.3 f0=0.95,0.64,0.54 --layout map "
+            "--size 4,4 --images 24 -o s")
+          .code,
+      0);
+  ASSERT_EQ(
+      gonio(f, "fit_map s/stack.json --model ggx/smith_ggx.correlated/schlick -o maps.exr").code,
+      0);
+  const auto said = gonio(f, "export maps.exr --to gltf -o m.gltf --json").json();
+  EXPECT_EQ(said["metals"], 16);
+  EXPECT_LT(said["high_residual"], 0.05);
 }
 
 TEST(ExportCommand, WritesExtensionsOfGltfWhereTheyMakeTheFitExpressible) {

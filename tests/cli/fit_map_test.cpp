@@ -45,6 +45,29 @@ TEST(FitMapCommand, FitsAStackAndSaysWhatTheMapHolds) {
     EXPECT_NEAR(v, 0.15F, 0.03F);
 }
 
+TEST(StackCommand, MakesAStackOfPhotographsAndTheListOfTheirLamps) {
+  const Folder f;
+  f.write("d.csv", "theta_i,phi_i,theta_o,phi_o\n0,0,0,0\n40,90,0,0\n60,180,0,0\n");
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint +
+                         " --layout map --size 4,3 --values f_r_cosine --directions d.csv -o s")
+                .code,
+            0);
+  f.write("s/dome.lp",
+          "3\nimage_000.jpg 0 0 1\nimage_001.jpg 0 0.642788 0.766044\n"
+          "image_002.jpg -0.866025 0 0.5\n");
+  const auto o = gonio(f, "stack s/dome.lp -o s/mine.json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("s/mine.json: 3 images of 4 × 3\n"), o.out.npos) << o.out;
+  EXPECT_NE(o.out.find("scale   unknown"), o.out.npos) << o.out;
+  const auto j =
+      gonio(f, "stack s/dome.lp --white 0.5 --white-reflectance 0.9 -o s/mine.json --json").json();
+  EXPECT_NEAR(j["images"][0]["scale"], 0.9 / (3.14159265 * 0.5), 1e-6);
+  EXPECT_EQ(j["values"], "f_r_cosine");
+  expect_one_line(gonio(f, "stack s/dome.lp --images d.csv -o s/x.json"), 3, "image_000.jpg");
+  expect_one_line(gonio(f, "stack s/dome.lp --white 0 -o s/x.json"), 2, "--white");
+  EXPECT_FALSE(fs::exists(f / "s/x.json"));
+}
+
 /// The stack with the azimuths of all lights negated.
 void negate_lights(const Folder& f) {
   auto j = nlohmann::ordered_json::parse(read_bytes(f / "s/stack.json"));

@@ -65,6 +65,12 @@ Table read_exr_slice(const std::string& path) {
   const auto attribute = [&](const char* name) {
     return attribute_of(header, name, path, "an image slice made by gonio");
   };
+  if (const auto schema = header.attributes.find("gonio:schema");
+      schema != header.attributes.end() && schema->second.starts_with("gonio.map"))
+    throw bad_input(path, "gonio:schema",
+                    fmt::format("{}: a map of {} × {} fits of {}", schema->second, header.width,
+                                header.height, attribute("gonio:model")),
+                    "a table; a map is shown by gonio export MAP --to gltf");
   if (attribute(kLayout) != kSlice) throw bad_input(path, kLayout, attribute(kLayout), kSlice);
   Table t;
   t.path = path;

@@ -1,0 +1,86 @@
+// gonio stack: photographs and the list of their lamps become the document that fit_map reads.
+#include "stack/stack.h"
+
+#include <numbers>
+#include <optional>
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/text.h"
+#include "cli/line/command.h"
+#include "cli/line/terminal.h"
+#include "image/image_file.h"
+#include "stack/lamps.h"
+
+#include <fmt/format.h>
+
+namespace gonio::cli {
+namespace {
+
+struct StackCall : Common {
+  std::string lamps, images, output;
+  std::optional<double> white;
+  double reflectance = 1;
+  bool linear = false;
+};
+
+/// Opens each image, which refuses those that are not light or of another size than the first; that size.
+Rectangle size_of_all(const Stack& s) {
+  Rectangle size;
+  for (const auto& image : s.images) {
+    const auto file = open_image(s.path_of(image.path), s.linear);
+    if (size.width == 0) size = {0, 0, file->width(), file->height()};
+    if (file->width() != size.width || file->height() != size.height)
+      throw bad_input(file->path(), "size", fmt::format("{} × {}", file->width(), file->height()),
+                      fmt::format("{} × {} as {}", size.width, size.height, s.images[0].path));
+  }
+  return size;
+}
+
+Exit run(const StackCall& o) {
+  use(o);
+  check_outputs({o.lamps}, {o.output});
+  Stack s = stack_of_lamps(o.lamps, o.images, o.output);
+  s.linear = o.linear;
+  if (o.white)
+    for (auto& image : s.images) image.scale = o.reflectance / (std::numbers::pi * *o.white);
+  const Rectangle size = size_of_all(s);
+  const std::string text = to_json(s);
+  write_file(o.output, text);
+  if (o.json) {
+    fmt::print("{}", text);
+    return Exit::done;
+  }
+  say("{}: {} of {} × {}\n", o.output, counted(s.images.size(), "image"), size.width, size.height);
+  if (!o.white)
+    say("scale   unknown: kd and f0 come out right but for one factor. Photograph a white tile "
+        "that faces the "
+        "lamp, and give its value: --white 0.8\n");
+  return Exit::done;
+}
+
+}  // namespace
+
+void add_stack(CommandLine& line) {
+  auto [c, o] = line.command<StackCall>(
+      "stack", "Makes the stack of a map from photographs and the list of their lamps",
+      "gonio stack dome.lp --linear --white 0.8 -o stack.json", run);
+  c.option("LAMPS", o->lamps,
+           "List of lamps, .lp: the number of images, then NAME X Y Z a line, the vector to the "
+           "lamp of each")
+      .required();
+  c.option("--images", o->images, "Folder of the images (default: that of the list)");
+  c.flag("--linear", o->linear, "The images are light, though PNG files do not say so (gAMA 1)");
+  c.option(
+       "--white", o->white,
+       "Number that a white diffuse tile facing the lamp has in the images: what gives f its scale")
+      .in(1e-9, 1e9);
+  c.option("--white-reflectance", o->reflectance, "Reflectance of that tile")
+      .in(0.01, 1.0)
+      .show_default();
+  c.option("-o,--output", o->output, "Document to write; the images lie in its folder or below")
+      .required();
+  add_output(c, *o);
+}
+
+}  // namespace gonio::cli

@@ -1,0 +1,371 @@
+#include "fitting/export/map_export.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <mutex>
+
+#include "base/base64.h"
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json/describe.h"
+#include "base/json/reader.h"
+#include "base/text.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/term/map.h"
+#include "fitting/export/placement.h"
+#include "fitting/export/target.h"
+#include "geometry/half_difference.h"
+#include "image/display.h"
+#include "image/exr.h"
+#include "image/png.h"
+#include "stack/parameter_image.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+#include <tbb/parallel_for.h>
+
+namespace gonio {
+
+template <>
+inline constexpr auto description<MapExport> = std::tuple{
+    constant_text("schema", "gonio.map_export/1"),
+    Field{"map", &MapExport::map, "path of the map"},
+    Field{"model", &MapExport::model, "spec of the map's fits"},
+    Field{"width", "texels", &MapExport::width, ""},
+    Field{"height", "texels", &MapExport::height, ""},
+    Field{"unknown", "texels", &MapExport::unknown, "without a value of each parameter"},
+    Field{"metals", "texels", &MapExport::metals, "whose metallic is 1"},
+    Field{"ior", &MapExport::ior, "refractive index of the strongest highlight that is no metal's"},
+    Field{"median_residual", &MapExport::median_residual,
+          "of the texels: root mean square of the relative distance from the map's f"},
+    Field{"high_residual", &MapExport::high_residual, "the same, beyond which one texel in 20 is"},
+    Field{"lost", &MapExport::lost, "what the target cannot express"}};
+static_assert(describes_every_member<MapExport>());
+
+std::string to_json(const MapExport& e) {
+  return json_text(e);
+}
+std::string map_export_schema() {
+  return schema_text<MapExport>("Export of a map");
+}
+
+namespace {
+
+constexpr std::size_t rows_at_once = 16, judged = 32;
+constexpr double largest_ior = 10;
+
+/// What a texel is in glTF's words.
+struct Texel {
+  std::array<double, 3> base{}, f0{};
+  double roughness = 1;
+  bool metal = false, known = false;
+};
+
+/// Numbers of a colour: of grey three times the same.
+double of(const std::vector<double>& values, std::size_t c) {
+  return values.empty() ? 0 : values[values.size() == 3 ? c : 0];
+}
+
+Texel texel_of(const BoundModel& model) {
+  Texel t;
+  for (const double v : model.values)
+    if (std::isnan(v)) return t;
+  t.known = true;
+  const Surface s = surface_of(model);
+  const SurfaceLobe* lobe = nullptr;
+  for (const auto& placed : placements(s))
+    if (placed.base && !lobe) {
+      lobe = placed.base;
+      t.metal = placed.metal;
+    }
+  if (lobe) t.roughness = one_roughness(*lobe);
+  for (std::size_t c = 0; c < 3; ++c) {
+    t.f0[c] = lobe ? lobe->weight * of(lobe->f0, c) : 0;
+    t.base[c] = t.metal ? t.f0[c] : of(s.kd, c);
+  }
+  return t;
+}
+
+/// Eight bits of a number of [0, 1], and back.
+unsigned char byte_of(double x) {
+  return static_cast<unsigned char>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
+}
+double from_srgb(unsigned char byte) {
+  const double x = byte / 255.0;  // IEC 61966-2-1
+  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
+}
+
+double f0_of(double ior) {
+  return mapped<F0FromIor, double>(ior, 1.0)[0];
+}
+/// Index that reflects f0 at normal incidence.
+double ior_of(double f0) {
+  const double root = std::sqrt(std::clamp(f0, 0.0, f0_of(largest_ior)));
+  return (1 + root) / (1 - root);
+}
+
+/// Bytes of a texel in the textures.
+struct TexelBytes {
+  std::array<unsigned char, 3> base{}, rough{}, tint{};
+};
+TexelBytes bytes_of(const Texel& t, double strongest) {
+  TexelBytes b;
+  b.rough = {0, byte_of(t.roughness), static_cast<unsigned char>(t.metal ? 255 : 0)};
+  for (std::size_t c = 0; c < 3; ++c) {
+    b.base[c] = srgb_byte(t.base[c]);
+    b.tint[c] = srgb_byte(t.metal || strongest <= 0 ? 1 : t.f0[c] / strongest);
+  }
+  return b;
+}
+TargetParameters parameters_of(const TexelBytes& b, double ior) {
+  TargetParameters p{{"base_color", {0, 0, 0}},
+                     {"metallic", {b.rough[2] / 255.0}},
+                     {"roughness", {b.rough[1] / 255.0}},
+                     {"ior", {ior}},
+                     {"specular", {1}},
+                     {"specular_color", {0, 0, 0}}};
+  for (std::size_t c = 0; c < 3; ++c) {
+    p.front().values[c] = from_srgb(b.base[c]);
+    p.back().values[c] = from_srgb(b.tint[c]);
+  }
+  return p;
+}
+
+std::vector<FrameAngles<double>> judged_angles() {
+  std::vector<FrameAngles<double>> all;
+  const double least = std::cos(80 * degree);
+  for (const auto& d : judged_directions())
+    if (std::min(d.wi.z, d.wo.z) >= least && all.size() < judged) all.push_back(frame_angles(d));
+  return all;
+}
+
+/// Root mean square of the relative distance between glTF's f and the map's.
+double residual_of(const std::vector<std::vector<double>>& target,
+                   const std::vector<std::vector<double>>& fit) {
+  double sum = 0;
+  for (std::size_t c = 0; c < target.size(); ++c) {
+    const auto& f = fit[fit.size() == target.size() ? c : 0];
+    double mean = 0;
+    for (const double x : f) mean += x / static_cast<double>(f.size());
+    for (std::size_t i = 0; i < f.size(); ++i) {
+      const double d =
+          (target[c][i] - f[i]) / std::max({f[i], mean, std::numeric_limits<double>::min()});
+      sum += d * d;
+    }
+  }
+  return std::sqrt(sum / static_cast<double>(target.size() * judged));
+}
+
+/// Does something for the texels of a map, on all threads: each(texel's number, model of the texel), from any thread.
+template <class Each>
+void for_each_texel(const BoundModel& start, const std::string& path, Each&& each) {
+  ParameterImage parameters(start, path);
+  const std::size_t width = parameters.file()->width(), height = parameters.file()->height();
+  std::vector<std::vector<float>> planes;
+  for (std::size_t y = 0; y < height; y += rows_at_once) {
+    const Rectangle part{0, y, width, std::min(rows_at_once, height - y)};
+    parameters.read(part, planes);
+    tbb::parallel_for(std::size_t{0}, part.height, [&](std::size_t row) {
+      BoundModel here = start;
+      for (std::size_t t = row * width; t < (row + 1) * width; ++t) {
+        for (std::size_t v = 0; v < planes.size(); ++v)
+          here.values[v] = static_cast<double>(planes[v][t]);
+        each(y * width + t, here);
+      }
+    });
+  }
+}
+
+/// A plane of the image's shape in the xy plane, its texture's top at the top.
+void add_plane(Json& all, std::size_t width, std::size_t height) {
+  const auto across =
+      static_cast<float>(static_cast<double>(width) / static_cast<double>(std::max(width, height)));
+  const auto up = static_cast<float>(static_cast<double>(height) /
+                                     static_cast<double>(std::max(width, height)));
+  std::string bytes;
+  const auto put = [&](auto x) {
+    static_assert(std::endian::native == std::endian::little);  // as glTF has it
+    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
+  };
+  constexpr std::array<std::array<float, 2>, 4> corners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
+  for (const auto& [x, y] : corners)
+    for (const float v : {x * across, y * up, 0.0F}) put(v);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (const float v : {0.0F, 0.0F, 1.0F}) put(v);
+  for (std::size_t k = 0; k < 4; ++k)
+    for (const float v : {1.0F, 0.0F, 0.0F, 1.0F}) put(v);
+  for (const auto& [x, y] : corners)
+    for (const float v : {(x + 1) / 2, (1 - y) / 2}) put(v);
+  for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) put(k);
+  constexpr int float32 = 5126, uint32 = 5125, vertex_data = 34962, index_data = 34963;
+  constexpr std::array<std::size_t, 6> at{0, 48, 96, 160, 192, 216};
+  Json views = Json::array();
+  for (std::size_t k = 0; k + 1 < at.size(); ++k)
+    views.push_back({{"buffer", 0},
+                     {"byteOffset", at[k]},
+                     {"byteLength", at[k + 1] - at[k]},
+                     {"target", k == 4 ? index_data : vertex_data}});
+  const auto accessor = [&](int view, int type, std::size_t count, const char* shape) {
+    return Json{{"bufferView", view}, {"componentType", type}, {"count", count}, {"type", shape}};
+  };
+  Json positions = accessor(0, float32, 4, "VEC3");
+  positions["min"] = {-across, -up, 0};
+  positions["max"] = {across, up, 0};
+  all["scene"] = 0;
+  all["scenes"] = Json::array({{{"nodes", {0}}}});
+  all["nodes"] = Json::array({{{"name", "map"}, {"mesh", 0}}});
+  all["meshes"] = Json::array(
+      {{{"primitives",
+         Json::array(
+             {{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TANGENT", 2}, {"TEXCOORD_0", 3}}},
+               {"indices", 4},
+               {"material", 0}}})}}});
+  all["accessors"] =
+      Json::array({positions, accessor(1, float32, 4, "VEC3"), accessor(2, float32, 4, "VEC4"),
+                   accessor(3, float32, 4, "VEC2"), accessor(4, uint32, 6, "SCALAR")});
+  all["bufferViews"] = views;
+  all["buffers"] =
+      Json::array({{{"byteLength", bytes.size()},
+                    {"uri", "data:application/octet-stream;base64," + base64(bytes)}}});
+}
+
+/// Normals of a map as a texture; no pixels where it has none.
+PngImage normals_of(const std::string& path) {
+  PngImage png;
+  png.is_srgb = false;
+  const auto file = open_image(path);
+  std::vector<std::size_t> channels;
+  for (const char* axis : {"normal.X", "normal.Y", "normal.Z"}) {
+    const auto at = std::ranges::find(file->channels(), axis);
+    if (at == file->channels().end()) return png;
+    channels.push_back(static_cast<std::size_t>(at - file->channels().begin()));
+  }
+  png.width = file->width();
+  png.height = file->height();
+  std::array<std::vector<float>, 3> rows;
+  std::array<float*, 3> into{};
+  for (std::size_t y = 0; y < png.height; y += rows_at_once) {
+    const Rectangle part{0, y, png.width, std::min(rows_at_once, png.height - y)};
+    for (std::size_t k = 0; k < 3; ++k) {
+      rows[k].resize(part.size());
+      into[k] = rows[k].data();
+    }
+    file->read(part, channels, into);
+    for (std::size_t t = 0; t < part.size(); ++t) {
+      const bool known = !std::isnan(rows[2][t]);
+      auto& pixel = png.pixels.emplace_back();
+      for (std::size_t k = 0; k < 3; ++k)
+        pixel[k] = byte_of(known ? (double{rows[k][t]} + 1) / 2 : k == 2 ? 1 : 0.5);
+    }
+  }
+  return png;
+}
+
+}  // namespace
+
+bool is_map(const std::string& path) {
+  if (!InputFile(path).peek(4).starts_with("\x76\x2f\x31\x01")) return false;
+  const auto header = read_exr_header(path);
+  const auto schema = header.attributes.find("gonio:schema");
+  return schema != header.attributes.end() && schema->second == "gonio.map/1";
+}
+
+MapExport export_map(const std::string& path, std::string& file) {
+  if (!is_map(path)) throw bad_input(path, "header", "no gonio:schema", "a map of gonio fit_map");
+  const Image header = read_exr_header(path);
+  MapExport e;
+  e.map = path;
+  e.model = header.attributes.at("gonio:model");
+  const auto names = attribute_of(header, "gonio:channels", path, "a map of gonio fit_map");
+  const BoundModel start = bind_model(e.model, {}, split(std::string_view(names), ',').size());
+  e.width = header.width;
+  e.height = header.height;
+  const std::size_t texels = e.width * e.height;
+
+  std::mutex one_at_a_time;
+  double strongest = 0;
+  for_each_texel(start, path, [&](std::size_t, const BoundModel& model) {
+    const Texel t = texel_of(model);
+    if (t.metal) return;
+    const double most = *std::ranges::max_element(t.f0);
+    const std::lock_guard lock(one_at_a_time);
+    strongest = std::max(strongest, most);
+  });
+  strongest = std::min(strongest, f0_of(largest_ior));
+  e.ior = ior_of(strongest);
+
+  PngImage base, rough, tint;
+  for (auto* png : {&base, &rough, &tint}) {
+    png->width = e.width;
+    png->height = e.height;
+    png->pixels.resize(texels);
+  }
+  rough.is_srgb = false;
+  const auto at = judged_angles();
+  Surface with_a_lobe;
+  with_a_lobe.channels = 3;
+  with_a_lobe.kd.assign(3, 0.5);
+  with_a_lobe.lobes.push_back(
+      {0.3, 0.3, 1, {0.04, 0.04, 0.04}, {1, 1, 1}, {1.5, 1.5, 1.5}, {0, 0, 0}});
+  const TargetForm form = gltf_target.forms(with_a_lobe).back();
+  std::vector<float> residuals(texels, std::numeric_limits<float>::quiet_NaN());
+  std::vector<unsigned char> metal(texels);
+  for_each_texel(start, path, [&](std::size_t t, const BoundModel& model) {
+    const Texel texel = texel_of(model);
+    const TexelBytes bytes = bytes_of(texel, strongest);
+    base.pixels[t] = bytes.base;
+    rough.pixels[t] = bytes.rough;
+    tint.pixels[t] = bytes.tint;
+    metal[t] = texel.metal;
+    if (texel.known)
+      residuals[t] = static_cast<float>(
+          residual_of(form.values(parameters_of(bytes, e.ior), at), evaluate(model, at)));
+  });
+  e.metals = static_cast<std::size_t>(std::ranges::count(metal, 1));
+  std::erase_if(residuals, [](float r) { return std::isnan(r); });
+  e.unknown = texels - residuals.size();
+  std::ranges::sort(residuals);
+  if (!residuals.empty()) {
+    e.median_residual = double{residuals[residuals.size() / 2]};
+    e.high_residual = double{residuals[residuals.size() - 1 - residuals.size() / 20]};
+  }
+  e.lost = gltf_target.lost(start, surface_of(start), form.parameters);
+
+  std::vector<const PngImage*> textures{&base, &rough, &tint};
+  const PngImage normals = normals_of(path);
+  Json material{
+      {"name", "map"},
+      {"pbrMetallicRoughness",
+       {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
+      {"extensions",
+       {{"KHR_materials_ior", {{"ior", e.ior}}},
+        {"KHR_materials_specular", {{"specularColorTexture", {{"index", 2}}}}}}}};
+  if (!normals.pixels.empty()) {
+    textures.push_back(&normals);
+    material["normalTexture"] = {{"index", 3}};
+  }
+  material["extras"] = {
+      {"gonio", {{"model", e.model}, {"stack", header.attributes.at("gonio:stack")}}}};
+  Json all{{"asset", {{"version", "2.0"}, {"generator", "gonio"}}},
+           {"extensionsUsed", {"KHR_materials_ior", "KHR_materials_specular"}},
+           {"materials", Json::array({material})}};
+  constexpr int linear = 9729, linear_mipmap = 9987, clamp_to_edge = 33071;
+  all["samplers"] = Json::array({{{"magFilter", linear},
+                                  {"minFilter", linear_mipmap},
+                                  {"wrapS", clamp_to_edge},
+                                  {"wrapT", clamp_to_edge}}});
+  all["images"] = all["textures"] = Json::array();
+  for (std::size_t k = 0; k < textures.size(); ++k) {
+    all["images"].push_back({{"mimeType", "image/png"},
+                             {"uri", "data:image/png;base64," + base64(png_bytes(*textures[k]))}});
+    all["textures"].push_back({{"sampler", 0}, {"source", k}});
+  }
+  add_plane(all, e.width, e.height);
+  file = text_of(all);
+  return e;
+}
+
+}  // namespace gonio
