@@ -1,0 +1,34 @@
+// What a page has not: files of shaders, and kernels for the functions in them. Everything that
+// would read one is refused by name.
+#include "base/error.h"
+#include "brdf/kernel/kernels.h"
+#include "foreign/function.h"
+
+namespace gonio::foreign {
+
+bool is_name(std::string_view) {
+  return false;
+}
+bool is_there(std::string_view) {
+  return false;
+}
+Name parse_name(std::string_view name) {
+  throw wrong_usage("'" + std::string(name) + "': a page reads no shaders");
+}
+
+}  // namespace gonio::foreign
+
+namespace gonio::simd128 {
+
+template <class F>
+std::span<const TermKernels<F>> foreign_terms();
+template <>
+std::span<const TermKernels<float>> foreign_terms<float>() {
+  return {};
+}
+template <>
+std::span<const TermKernels<double>> foreign_terms<double>() {
+  return {};
+}
+
+}  // namespace gonio::simd128
