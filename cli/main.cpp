@@ -63,6 +63,7 @@ int run(int argc, char** argv) {
   gonio::cli::add_compare(line);
   gonio::cli::add_convert(line);
   gonio::cli::add_synth(line);
+  gonio::cli::add_explore(line);
   gonio::cli::add_models(line);
   gonio::cli::add_term(line);
   gonio::cli::add_eval(line);

@@ -21,6 +21,7 @@ void add_models(CommandLine&);
 void add_term(CommandLine&);
 void add_audit(CommandLine&);
 void add_eval(CommandLine&);
+void add_explore(CommandLine&);
 void add_synth(CommandLine&);
 void add_columns(CommandLine&);
 void add_convert(CommandLine&);

@@ -1,6 +1,10 @@
 #include "cli/line/reading.h"
 
+#include <filesystem>
+
 #include "base/error.h"
+#include "base/file.h"
+#include "brdf/model/fitted_model.h"
 #include "brdf/model/spec.h"
 #include "foreign/function.h"
 
@@ -20,6 +24,13 @@ void add_reading(Command& c, ReadingWords& words, bool bounds) {
     c.option("--bounds", words.bounds,
              "Of a shader's function: NAME=LOW,HIGH[,DEFAULT] of a parameter, or NAME=VALUE")
         .at_most(64);
+}
+
+bool names_table(const std::string& word) {
+  if (foreign::is_name(word) || word.ends_with(".json") || !std::filesystem::exists(word))
+    return false;
+  InputFile in(word);
+  return !begins_as_fit(in.peek(256));  // a table's bytes do not
 }
 
 std::string read_as(const std::string& spec, const ReadingWords& words) {

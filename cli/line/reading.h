@@ -20,5 +20,7 @@ void add_reading(Command&, ReadingWords&, bool bounds = true);
 /// The spec with these options in the names of its files: "my.glsl:f" → "my.glsl:f{includes=pi}".
 /// \throws Error  wrong usage where there are options and no file
 std::string read_as(const std::string& spec, const ReadingWords&);
+/// True of a word that names a table's file, where a model's would do: no spec, no function of a shader, no document of a fit.
+bool names_table(const std::string& word);
 
 }  // namespace gonio::cli

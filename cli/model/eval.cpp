@@ -1,13 +1,10 @@
 // gonio eval: a model or a table at given directions.
-#include <filesystem>
-
 #include "answer/model_argument.h"
 #include "answer/values.h"
 #include "base/file.h"
 #include "cli/line/command.h"
 #include "cli/line/reading.h"
 #include "cli/line/terminal.h"
-#include "foreign/function.h"
 #include "table/format/csv.h"
 #include "table/format/formats.h"
 
@@ -23,14 +20,6 @@ struct EvalCall : Common {
   std::vector<std::string> set;
   std::optional<Bins> bins;
 };
-
-/// The document of a fit or a batch begins as JSON or says that it holds a fit; a table does not.
-bool is_table(const std::string& path) {
-  if (foreign::is_name(path) || path.ends_with(".json") || !std::filesystem::exists(path))
-    return false;
-  InputFile in(path);
-  return !begins_as_fit(in.peek(256));
-}
 
 /// Gives the table of directions the channels, whose columns are to be filled.
 std::vector<double*> columns_for(Table& at, const std::vector<std::string>& channels) {
@@ -53,7 +42,7 @@ Exit run(const EvalCall& o) {
   t.values.clear(), t.weights.clear();
   const DirectionColumns at = columns_of(*t.list());
   nlohmann::ordered_json document;
-  if (is_table(o.what)) {
+  if (names_table(o.what)) {
     if (!o.set.empty()) throw wrong_usage("--set goes with a model, not with a table");
     const Table table = read_table(o.what, o.bins);
     interpolate_at(table, at, columns_for(t, table.channels));

@@ -6,13 +6,22 @@
 #include <fmt/format.h>
 
 namespace gonio {
+
 std::string drawn_page(std::string_view title, std::string_view body, std::string_view looks) {
+  return scripted_page(title, body, looks, assets::pictures_js, false);
+}
+
+std::string scripted_page(std::string_view title,
+                          std::string_view body,
+                          std::string_view looks,
+                          std::string_view script,
+                          bool runs_module) {
   return fmt::format(
       R"(<!doctype html>
 <html lang="en">
 <head>
 <meta charset="utf-8">
-<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'">
+<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src 'unsafe-inline'{}; style-src 'unsafe-inline'; img-src data:; base-uri 'none'; form-action 'none'">
 <meta name="viewport" content="width=device-width, initial-scale=1">
 <meta name="color-scheme" content="light dark">
 <meta name="generator" content="gonio">
@@ -27,7 +36,8 @@ std::string drawn_page(std::string_view title, std::string_view body, std::strin
 </body>
 </html>
 )",
-      markup_text(title), assets::page_css, looks, body, assets::pictures_js);
+      runs_module ? " 'wasm-unsafe-eval'" : "", markup_text(title), assets::page_css, looks, body,
+      script);
 }
 
 std::string beside_index(std::string html) {

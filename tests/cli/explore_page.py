@@ -1,0 +1,293 @@
+"""Plays with pages of gonio explore in a headless browser, and says what is not as it should be.
+
+    explore_page.py GONIO FOLDER
+
+The folder has paint.html (a table, its fit and disney), plain.html (no argument) and hostile.html (a name that is markup).
+"""
+
+import csv
+import json
+import pathlib
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from devtools import Browser
+
+gonio, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+complaints = []
+
+
+def expect(holds, what):
+    if not holds:
+        complaints.append(what)
+
+
+def address(name):
+    return (folder / name).as_uri()
+
+
+ready = "typeof kept === 'string' && document.querySelector('#facts p')"
+
+
+def settle(page):
+    page.wait("dirty.waiting === 0 && !dirty.all && !dirty.items.size")
+
+
+def evaluated(model, rows):
+    """f by gonio eval, of words that name a model."""
+    with open(folder / "in.csv", "w", newline="") as out:
+        csv.writer(out).writerows([["theta_i", "phi_i", "theta_o", "phi_o"], *rows])
+    words = [gonio, "eval", *model, "--directions", str(folder / "in.csv"), "--json"]
+    done = subprocess.run(words, capture_output=True, text=True)
+    if done.returncode:
+        complaints.append(f"{' '.join(words)}: {done.stderr}")
+        return [[0, 0, 0]] * len(rows)
+    return [row["f"] for row in json.loads(done.stdout)["rows"]]
+
+
+def near(a, b, what):
+    expect(abs(a - b) <= 1e-11 * abs(b), f"{what}: {a!r}, gonio eval says {b!r}")
+
+
+def middle_of(page, selector, x=0.5, y=0.5):
+    box = page.ask(f"(() => {{ const n = document.querySelector('{selector}'); n.scrollIntoView({{ block: 'center' }}); "
+                   "const b = n.getBoundingClientRect(); return [b.left, b.top, b.width, b.height]; })()")
+    return box[0] + x * box[2], box[1] + y * box[3]
+
+
+# How many colours a picture has, and its bytes as a number.
+page_tools = """
+globalThis.look = (id) => picture_of(`#${id}`);
+globalThis.picture_of = (selector) => {
+  const c = document.querySelector(selector), all = new Uint32Array(c.getContext("2d").getImageData(0, 0, c.width, c.height).data.buffer);
+  return { colours: new Set(all).size, sum: all.reduce((h, v) => (Math.imul(h, 31) + v) | 0, 0) };
+};
+globalThis.choose = (node, value) => { node.value = value; node.dispatchEvent(new Event("input")); node.dispatchEvent(new Event("change")); };
+"""
+
+
+def values_under_the_pointer(page):
+    page.ask("choose(document.getElementById('theta'), 38)")
+    settle(page)
+    model = page.ask("command()").split()[2:]
+    rows, read = [], []
+    for part in (0.2, 0.45, 0.6, 0.71, 0.9):
+        page.mouse("mouseMoved", *middle_of(page, "#cut .chart", part))
+        at, values = page.ask("[Number($('cut').querySelector('.readout').dataset.at), JSON.parse($('cut').querySelector('.readout').dataset.values)]")
+        rows.append([38, 0, abs(at), 0 if at < 0 else 180])
+        read.append(dict(values))
+    expect(len({row[2] for row in rows}) == 5, f"the pointer reads at its own place: {rows}")
+    for f, values in zip(evaluated(model, rows), read):
+        near(values["fit.json"], f[1], "under the pointer")
+    # One cell of a slice.
+    page.mouse("mouseMoved", *middle_of(page, "#slice-1", 0.3, 0.6))
+    cell, values = page.ask("[Number($('slices').querySelector('.readout').dataset.at), JSON.parse($('slices').querySelector('.readout').dataset.values)]")
+    expect(page.ask(f"slices.get(items[1])[2][{cell}]") == values[2][1], "a slice tells its cell")
+    theta_h, theta_d = (cell % 96 + 0.5) / 96 * 90, (95 - cell // 96 + 0.5) / 96 * 90
+    expect(abs(theta_h - 27) < 1.5 and abs(theta_d - 36) < 1.5, f"a slice tells the place under the pointer: {theta_h}, {theta_d}")
+    # Keys do the same.
+    before = page.ask("$('cut').querySelector('.readout').dataset.at")
+    page.ask("document.querySelector('#cut .chart').focus()")
+    page.key("keyDown", "ArrowRight")
+    expect(page.ask("$('cut').querySelector('.readout').dataset.at") != before, "an arrow key moves the reading")
+
+
+def facts(page):
+    page.wait("document.getElementById('facts').innerText.includes('typical factor')")
+    said = page.ask("document.getElementById('facts').innerText")
+    fit = json.loads((folder / "fit.json").read_text())
+    typical = 2.718281828459045 ** fit["residuals"]["log_rms"]
+    word = said.split("typical factor ×/÷ ")[1].split(";")[0]
+    expect(abs(float(word) - typical) < 0.01, f"the page's typical factor {word} beside the fit's {typical}")
+
+
+    delta = float(said.split("ΔE2000 ")[1].split(",")[0])
+    expect(delta < 3, f"the spheres of a table and its fit are alike: {delta}")
+    expect("roughness 0.38" in page.ask("document.getElementById('model').innerText"), "the roughness beside alpha")
+
+
+def dots(page):
+    page.wait("document.querySelector('#measured .dots')")
+    n = page.ask("document.querySelector('#measured .dots').getAttribute('d').split('M').length - 1")
+    expect(500 < n <= 2048, f"{n} dots, predicted against measured")
+
+
+def together(page):
+    before = json.loads(page.ask("state()"))["i"][1]["v"]["kd"]
+    page.ask("document.getElementById('together').checked = true")
+    page.ask("(() => { const r = document.getElementById('value-0'); r.focus(); choose(r, 100); r.blur(); })()")
+    after = json.loads(page.ask("state()"))["i"][1]["v"]["kd"]
+    expect(all(abs(b / a - after[0] / before[0]) < 1e-9 for a, b in zip(before, after)) and after != before, f"colours move together: {before}, {after}")
+    expect(page.ask("[...document.querySelectorAll('.slider input[type=range]')].slice(0, 3).every((r, c) => Math.abs(r.value / 1000 - values_of(items[1]).kd[c]) < 1e-3)"), "and their sliders")
+    page.ask("document.getElementById('together').checked = false; $('undo').click()")
+    expect(json.loads(page.ask("state()"))["i"][1]["v"]["kd"] == before, "and are undone together")
+
+
+def each_slider(page):
+    names = page.ask("[...document.querySelectorAll('.slider input[type=range]')].map((r) => r.id)")
+    expect(len(names) == 7, f"{names}: a slider for each value")
+    expect(page.ask("document.querySelectorAll('.interval').length") == 7, "an interval on each slider of a fit")
+    for name in names:
+        before, pictures = json.loads(page.ask("state()")), page.ask("look('sphere-1')")
+        others = page.ask("[look('sphere-0'), look('sphere-2')]")
+        page.ask(f"(() => {{ const r = document.getElementById('{name}'); choose(r, (Number(r.value) + 350) % 1000); }})()")
+        settle(page)
+        after = json.loads(page.ask("state()"))
+        moved = [(key, c) for key, v in before["i"][1]["v"].items() for c in range(len(v)) if v[c] != after["i"][1]["v"][key][c]]
+        label = page.ask(f"document.querySelector('label[for={name}]').textContent")
+        expect([f"{k}.{'rgb'[c]}" if len(before['i'][1]['v'][k]) > 1 else k for k, c in moved] == [label], f"{label} moves {moved}")
+        before["i"][1]["v"] = after["i"][1]["v"] = None
+        expect(before == after, f"{label} moves nothing else")
+        expect(page.ask("look('sphere-1')") != pictures, f"{label} moves the sphere")
+        expect(page.ask("[look('sphere-0'), look('sphere-2')]") == others, f"{label} leaves the other spheres")
+
+
+def ways_back(page):
+    now = page.ask("state()")
+    page.ask("$('undo').click()")
+    earlier = page.ask("state()")
+    expect(earlier != now, "undo")
+    page.ask("$('redo').click()")
+    expect(page.ask("state()") == now, "redo")
+    page.ask("document.body.focus(); document.activeElement.blur()")
+    page.key("keyDown", "a")
+    held = json.loads(page.ask("state()"))
+    fit = json.loads((folder / "fit.json").read_text())["parameters"]["alpha"]["value"]
+    expect(held["i"][1]["v"]["alpha"] == [fit], "A, while its key is down")
+    page.key("keyUp", "a")
+    expect(page.ask("state()") == now, "and back when it is up")
+    page.ask("$('reset').click()")
+    expect(json.loads(page.ask("state()"))["i"][1]["v"]["alpha"] == [fit], "reset")
+    page.ask("$('undo').click()")
+    expect(page.ask("state()") == now, "a reset is undone")
+
+
+def drags(page):
+    x, y = middle_of(page, "#cut .chart", 0.7)
+    page.mouse("mousePressed", x, y, True)
+    page.mouse("mouseMoved", x + 40, y, True)
+    page.mouse("mouseReleased", x + 40, y)
+    settle(page)
+    theta = page.ask("view.theta")
+    expect(38 < theta < 75, f"a drag turns the light, to {theta}")
+    light, picture = page.ask("view.light"), page.ask("look('sphere-1')")
+    x, y = middle_of(page, "#sphere-1", 0.4, 0.3)
+    page.mouse("mousePressed", x, y, True)
+    page.mouse("mouseReleased", x, y)
+    settle(page)
+    expect(page.ask("view.light") != light and page.ask("look('sphere-1')") != picture, "a drag moves the sphere's light")
+    expect(page.ask("Math.abs(view.light[0] + 0.2 / 0.96) < 0.02"), "to under the pointer")
+    page.wait("solid !== null")
+    before = page.ask("picture_of('#lobe canvas')")
+    expect(before["colours"] > 30, f"the lobe in space is drawn, in {before} colours")
+    x, y = middle_of(page, "#lobe canvas")
+    page.mouse("mousePressed", x, y, True)
+    page.mouse("mouseMoved", x + 50, y + 10, True)
+    page.mouse("mouseReleased", x + 50, y + 10)
+    expect(page.ask("picture_of('#lobe canvas')") != before, "and turned by a drag")
+
+
+def address_goes_round(page):
+    page.ask("choose(document.querySelectorAll('.term select')[1], 'ggx_aniso/'.slice(0, -1))")
+    settle(page)
+    state, pictures = page.ask("state()"), page.ask("['sphere-1', 'slice-1', 'sphere-0'].map(look)")
+    link = page.ask("location.href")
+    # In another page.
+    page.open("about:blank", "true")
+    page.open(link, ready)
+    page.ask(page_tools)
+    settle(page)
+    expect(page.ask("state()") == state, "the address holds the state")
+    expect(page.ask("['sphere-1', 'slice-1', 'sphere-0'].map(look)") == pictures, "and the pictures")
+
+
+def copies(page):
+    page.ask("choose(document.getElementById('theta'), 45)")
+    settle(page)
+    page.ask("$('copy-json').click()")
+    (folder / "copied.json").write_text(page.ask("$('copied').value"))
+    words = page.ask("command()").split()[2:]
+    rows = [[45, 0, t, 180] for t in (0, 30, 45, 80)]
+    expect(evaluated([str(folder / "copied.json")], rows) == evaluated(words, rows), "the JSON copied is the command copied")
+    shown = page.ask("(() => { const c = cuts.curves[cuts.curves.findIndex((c) => c.colour === active)]; return [0, 30, 45, 80].map((t) => c.channels.map((f) => f[nearest(cuts.angles, t)])); })()")
+    for f, values in zip(evaluated(words, rows), shown):
+        for a, b in zip(values, f):
+            near(a, b, "the model copied")
+    svg = page.ask("svg_text('cut')")
+    expect(svg.startswith("<svg") and "var(" not in svg.split("style=")[2].split('"')[1], "an SVG that stands alone")
+    expect(page.ask("png_of('spheres').then((b) => b.size)") > 5000, "a PNG of the spheres")
+
+
+def every_model(page):
+    """Of the catalogue: whole models, and each term in the default model."""
+    names = page.ask("materials().map(([name]) => name)")
+    expect(len(names) > 15, "materials to begin with")
+    choices = page.ask("catalogue.terms.map((t) => [t.role, t.short])")
+    moves = [f"become({json.dumps(name)})" for name in names]
+    for role, term in choices:
+        parts = {"ndf": "ggx", "masking": "smith_ggx.correlated", "fresnel": "schlick", "diffuse": "lambert", role: term}
+        moves.append(f"swap([[{json.dumps(parts['diffuse'])}], {json.dumps([parts[r] for r in ('ndf', 'masking', 'fresnel')])}])")
+    moves.append("swap([['lambert']])")
+    for move in moves:
+        page.ask(move)
+        settle(page)
+        failed = page.ask("$('status').className === 'failed' && $('status').textContent")
+        expect(not failed, f"{move}: {failed}")
+        sphere, flat = page.ask("[look('sphere-0').colours, look('slice-0').colours]")
+        drawn = page.ask("['cut', 'polar', 'albedo'].map((id) => $(id).querySelector('path.curve')?.getAttribute('d').length ?? 0)")
+        expect(sphere > 10 and flat > (0 if 'lambert' in move else 1) and min(drawn[:2]) > 500, f"{move}: {sphere} and {flat} colours, paths of {drawn}")
+
+
+def play(page):
+    page.open(address("paint.html"), ready)
+    page.ask(page_tools)
+    settle(page)
+    expect(page.ask("$('status').textContent") == "", "nothing to say at first")
+    expect(page.ask("[...document.querySelectorAll('input, select, canvas, button, textarea')].every((n) => n.labels?.length || n.ariaLabel || n.textContent.trim())"), "every control has a label")
+    values_under_the_pointer(page)
+    facts(page)
+    dots(page)
+    each_slider(page)
+    together(page)
+    ways_back(page)
+    drags(page)
+    address_goes_round(page)
+    copies(page)
+    expect(page.ask("document.documentElement.scrollWidth") <= 1200, "not wider than its window")
+    page("Emulation.setDeviceMetricsOverride", width=400, height=900, deviceScaleFactor=1, mobile=False)
+    settle(page)
+    expect(page.ask("document.documentElement.scrollWidth") <= 400, "nor than a narrow one")
+
+
+def bad_addresses(page):
+    for bad, words in (("#%7Bjunk", "cannot be shown"), ("#%ZZ", "cannot be shown"), ("#" + "[1]", "cannot be shown"),
+                       ('#{"i":[{"n":"<b>x</b>","s":"ggx/none_such/schlick","v":{}}]}', "none_such"), ('#{"i":[{"t":7}]}', "neither a model nor a table"), ('#{"i":[]}', "one to eight"), ('#{"i":[null]}', "cannot be shown"),
+                       ('#{"i":[{"t":0},{"t":0}]}', "twice"), ('#{"i":[{"s":"lambert","v":{"kd":"x"}}]}', "cannot be shown"),
+                       ('#{"i":[{"s":"lambert","v":{"kd":[7,7,7]}}]}', "kd")):
+        page.open("about:blank", "true")
+        page.open(address("plain.html") + bad, ready)
+        said = page.ask("$('status').textContent")
+        expect(words in said, f"{bad}: {said}")
+        expect(page.ask("items.length === 1 && document.querySelector('path.curve') !== null"), f"{bad}: the page works")
+        expect(page.ask("document.querySelector('b') === null || !document.querySelector('h1 b, #status b')"), f"{bad}: a name is no markup")
+
+
+def hostile(page):
+    page.open(address("hostile.html"), "typeof kept === 'string' && dirty.waiting === 0")
+    expect(page.ask("document.querySelectorAll('img').length") == 0, "a file's name is no markup")
+    expect(page.ask("document.getElementById('surfaces').innerText.includes('<img src=x')"), "but text")
+
+
+with Browser(1200, 900) as page:
+    sys.excepthook = lambda *error: (print("\n".join(complaints)), sys.__excepthook__(*error))
+    play(page)
+    page("Emulation.setDeviceMetricsOverride", width=1200, height=900, deviceScaleFactor=1, mobile=False)
+    page.open(address("plain.html"), ready)
+    page.ask(page_tools)
+    every_model(page)
+    bad_addresses(page)
+    hostile(page)
+    complaints += page.problems(folder.as_uri())
+print("\n".join(complaints))
+sys.exit(1 if complaints else 0)

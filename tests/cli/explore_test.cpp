@@ -1,0 +1,66 @@
+// gonio explore: the page that it writes, what it refuses, and the page in a browser.
+#include "cli/program.h"
+
+namespace gonio::test {
+namespace {
+
+TEST(Explore, WritesOnePageAndSaysWhatItHolds) {
+  const Folder f;
+  gonio(f, "synth " + std::string(paint) + " --layout hemisphere -o t.csv");
+  const auto o = gonio(f, "explore t.csv disney -o p.html --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto document = o.json();
+  EXPECT_EQ(document["page"], "p.html");
+  EXPECT_EQ(document["items"][0]["table"], "t.csv");
+  EXPECT_GT(document["items"][0]["covered"], 0.9);
+  EXPECT_EQ(document["items"][1]["model"], "disney");
+  EXPECT_NE(read_bytes(f / "p.html").find("id=\"explored\""), std::string::npos);
+  const auto said = gonio(f, "explore t.csv -o q.html").out;
+  EXPECT_NE(said.find("typically off by"), std::string::npos);
+  EXPECT_EQ(gonio(f, "explore t.csv disney -o again.html").code, 0);
+  EXPECT_EQ(read_bytes(f / "again.html"), read_bytes(f / "p.html"));
+}
+
+TEST(Explore, RefusesWhatNoPageCanShow) {
+  const Folder f;
+  f.write("odd.csv", "a,b\n1,2\n");
+  gonio(f, "synth " + std::string(paint) + " --layout in_plane -o t.csv");
+  const std::size_t before = f.entries();
+  expect_one_line_each(
+      f, 2,
+      {{"explore", "-o"},
+       {"explore a b c d e f g h i -o p.html", "9 models and tables, expected 8 at most"},
+       {"explore disney lambert --set kd=0.1 -o p.html", "--set"},
+       {"explore t.csv --set kd=0.1 -o p.html", "--set"},
+       {"explore ggx/nothing/schlick -o p.html", "nothing"},
+       {"explore t.csv -o t.csv", "t.csv"}});
+  expect_one_line_each(f, 3,
+                       {{"explore odd.csv -o p.html", "odd.csv"},
+                        {"explore missing.json -o p.html", "missing.json"},
+                        {"explore disney -o no/such/p.html", "writing"}});
+  EXPECT_EQ(f.entries(), before);
+}
+
+TEST(Explore, PageDoesInABrowserWhatItSays) {
+  const auto found = [](const char* names) {
+    return std::system((std::string("for c in ") + names +
+                        "; do command -v $c >/dev/null && exit 0; done; exit 1")
+                           .c_str()) == 0;
+  };
+  if (!found("chromium chromium-browser google-chrome") || !found("python3"))
+    GTEST_SKIP() << "needs Chromium and Python 3, which are not here";
+  const Folder f;
+  gonio(f, "synth " + std::string(paint) + " --layout hemisphere --noise 0.02 -o t.csv");
+  ASSERT_EQ(gonio(f, "fit t.csv -o fit.json --quiet").code, 0);
+  ASSERT_EQ(gonio(f, "explore t.csv fit.json disney -o paint.html").code, 0);
+  ASSERT_EQ(gonio(f, "explore -o plain.html").code, 0);
+  const std::string name = "'<img src=x onerror=alert(1)>.csv'";
+  ASSERT_EQ(gonio(f, "explore ./" + name + " -o hostile.html", "cp t.csv " + name + "; ").code, 0);
+  const int status = std::system(("python3 '" + project_folder() + "/tests/cli/explore_page.py' " +
+                                  program() + " '" + f / "" + "' >'" + f / "said" + "' 2>&1")
+                                     .c_str());
+  EXPECT_EQ(status, 0) << read_bytes(f / "said");
+}
+
+}  // namespace
+}  // namespace gonio::test
