@@ -55,7 +55,7 @@ const describe = (handle) => (checked(g.describe(handle)), JSON.parse(answer()))
 // ---- what is shown --------------------------------------------------------------------------------------------------------------
 let catalogue, tables = [], page;  // page.items: what the page came with
 let items = [], view, active = 0;
-const first_view = () => ({ theta: 45, phi: 0, phid: 90, ev: 0, log: true, slog: false, channel: 1, light: [0.5, 0.6, 0.62], turn: [0.6, 0.45] });
+const first_view = () => ({ theta: 45, phi: 0, phid: 90, ev: 0, log: true, slog: false, channel: 1, light: [0.5, 0.6, 0.62], lamp: "", turn: [0.6, 0.45] });
 const settings_of = (values) => Object.entries(values).map(([name, v]) => `${name}=${v.join(",")}`).join(" ");
 const is_model = (item) => item && item.kind === "model";
 
@@ -112,9 +112,10 @@ function restore(text) {
   for (const name of ["theta", "phi", "phid", "ev", "channel"]) if (Number.isFinite(s.w?.[name])) view[name] = s.w[name];
   view.theta = clamp(view.theta, 0, 89), view.channel = clamp(Math.trunc(view.channel), 0, 2);
   for (const name of ["log", "slog"]) if (typeof s.w?.[name] === "boolean") view[name] = s.w[name];
+  if (catalogue.lights.includes(s.w?.lamp)) view.lamp = s.w.lamp;
   if (Array.isArray(s.w?.turn) && s.w.turn.length === 2 && s.w.turn.every(Number.isFinite)) view.turn = s.w.turn;
   if (Array.isArray(s.w?.light) && s.w.light.length === 3 && s.w.light.every(Number.isFinite) && Math.hypot(...s.w.light) > 1e-3) view.light = s.w.light;
-  show_all();
+  dirty.light = true, show_all();
 }
 const first_channels = () => (page.items[0]?.channels.length === 1 ? 1 : 3);
 function first_state() {
@@ -473,7 +474,7 @@ function make_pictures() {
     const box = picture.getBoundingClientRect(), x = (2 * (e.clientX - box.left) / box.width - 1) / 0.96, y = -(2 * (e.clientY - box.top) / box.height - 1) / 0.96;
     const r = Math.hypot(x, y), k = Math.min(1, 0.999 / r);
     view.light = [x * k, y * k, Math.sqrt(Math.max(1 - (r * k) ** 2, 0))];
-    dirty.light = true, redraw();
+    view.lamp = "", dirty.light = true, show_view(), redraw();
   };
   for (const picture of $("spheres").querySelectorAll("canvas")) picture.onpointerup = finish;
   for (const [item, i] of drawn()) $(`slice-${i}`).onpointermove = (e) => {
@@ -489,7 +490,7 @@ function put(id, size) {
 // A perfect diffuser, lit from above, is white at exposure 0.
 const exposure = () => Math.PI * 2 ** view.ev;
 function draw_spheres() {
-  if (dirty.light) checked(g.sphere(sphereSize, ...view.light));
+  if (dirty.light) checked(view.lamp ? g.sphere_under(sphereSize, catalogue.lights.indexOf(view.lamp)) : g.sphere(sphereSize, ...view.light));
   for (const [item, i] of drawn()) if (dirty.light || dirty.all || dirty.items.has(item)) checked(g.draw(item.handle, sphereSize, exposure(), room.rgba)), put(`sphere-${i}`, sphereSize);
 }
 function draw_slices() {
@@ -551,7 +552,7 @@ function show_view() {
     $(id).value = view[id];
     document.querySelector(`output[for="${id}"]`).textContent = `${Number(Number(view[id]).toFixed(2))}${unit}`;
   }
-  $("log").checked = view.log, $("slog").checked = view.slog, $("channel").value = view.channel;
+  $("log").checked = view.log, $("slog").checked = view.slog, $("channel").value = view.channel, $("lamp").value = view.lamp;
 }
 function turn_light(theta) {
   view.theta = clamp(Math.round(2 * Math.abs(theta)) / 2, 0, 89);
@@ -563,6 +564,7 @@ function connect() {
     $(id).onchange = finish;
   }
   for (const id of ["log", "slog"]) $(id).onchange = () => { view[id] = $(id).checked; redraw(), finish(); };
+  $("lamp").onchange = () => { view.lamp = $("lamp").value, dirty.light = true, redraw(), finish(); };
   $("channel").onchange = () => { view.channel = Number($("channel").value); redraw(), finish(); };
   $("add").append(make("option", { value: "" }, "a model …"), ...materials().map(([name]) => make("option", { value: name }, name)));
   $("add").onchange = () => { become($("add").value, true), $("add").value = ""; };
@@ -679,6 +681,7 @@ function from_address() {
     await start();
     checked(g.catalogue());
     catalogue = JSON.parse(answer());
+    $("lamp").append(make("option", { value: "" }, "one, where you drag it"), ...catalogue.lights.map((name) => make("option", { value: name }, name)));
     page.items.forEach((data, place) => { if (data.kind === "table") tables.push({ ...hold_table(data), place }); });
     document.querySelector(".explorer").hidden = false;
     say("");

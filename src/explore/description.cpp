@@ -80,7 +80,10 @@ std::string catalogue_json() {
   }
   for (const auto& m : metals())
     known_metals.push_back({{"symbol", text(m.symbol)}, {"name", text(m.name)}});
-  return Json{{"terms", terms}, {"models", models}, {"metals", known_metals}}.dump();
+  Json lights = Json::array();
+  for (const auto& l : sphere_lights()) lights.push_back(text(l.name));
+  return Json{{"terms", terms}, {"models", models}, {"metals", known_metals}, {"lights", lights}}
+      .dump();
 }
 
 }  // namespace gonio::explore

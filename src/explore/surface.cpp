@@ -240,25 +240,21 @@ void paint_ratio(const Difference& d, std::span<unsigned char> rgba) {
   }
 }
 
-Sphere::Sphere(std::size_t pixels, const Direction& towards)
-    : lit_(std::span(&towards, 1), pixels), columns_(lit_.points.size(), true) {
+Sphere::Sphere(std::size_t pixels, std::span<const Direction> towards)
+    : lit_(towards, pixels), columns_(lit_.points.size(), true) {
   for (std::size_t i = 0; i < lit_.points.size(); ++i)
     columns_.set(i, frame_angles(lit_.points[i].at));
 }
 
 void Sphere::draw(const Surface& s, double exposure, std::span<unsigned char> rgba) const {
   const std::size_t n = lit_.points.size();
-  for (std::size_t i = 0; i < lit_.inside.size(); ++i) {
-    std::fill_n(&rgba[4 * i], 3, static_cast<unsigned char>(0));
-    rgba[4 * i + 3] = lit_.inside[i] ? 255 : 0;
-  }
-  // One light: a pixel is one point.
-  const auto set = [&](std::size_t i, const auto& f) {
-    const LitPoint& p = lit_.points[i];
+  std::vector<float> radiance(3 * lit_.inside.size(), 0.0f);
+  const auto add = [&](const auto& f) {  // by channel and point
     for (std::size_t c = 0; c < 3; ++c) {
-      const double v = static_cast<double>(f(c)) * p.at.wi.z * exposure;
-      if (std::isnan(v)) rgba[4 * p.pixel + 3] = 0;
-      rgba[4 * p.pixel + c] = std::isnan(v) ? static_cast<unsigned char>(0) : quick_byte(v);
+      const auto* const channel = f(c);
+      for (std::size_t i = 0; i < n; ++i)
+        radiance[3 * lit_.points[i].pixel + c] +=
+            static_cast<float>(static_cast<double>(channel[i]) * lit_.points[i].at.wi.z * exposure);
     }
   };
   if (const auto* m = s.model()) {
@@ -270,16 +266,24 @@ void Sphere::draw(const Surface& s, double exposure, std::span<unsigned char> rg
     for (std::size_t c = 0; c < m->model.channels; ++c)
       out.push_back(f.emplace_back(columns_.padded()).data());
     evaluator(columns_.block(), out);
-    for (std::size_t i = 0; i < n; ++i)
-      set(i, [&](std::size_t c) { return f[out.size() == 3 ? c : 0][i]; });
-    return;
+    add([&](std::size_t c) { return out[out.size() == 3 ? c : 0]; });
+  } else {
+    std::vector<DirectionPair> at;
+    at.reserve(n);
+    for (const auto& p : lit_.points) at.push_back(p.at);
+    const Channels f = s(at);
+    add([&](std::size_t c) { return f[f.size() == 3 ? c : 0].data(); });
   }
-  std::vector<DirectionPair> at;
-  at.reserve(n);
-  for (const auto& p : lit_.points) at.push_back(p.at);
-  const Channels f = s(at);
-  for (std::size_t i = 0; i < n; ++i)
-    set(i, [&](std::size_t c) { return f[f.size() == 3 ? c : 0][i]; });
+  for (std::size_t i = 0; i < lit_.inside.size(); ++i) {
+    bool known = lit_.inside[i];
+    for (std::size_t c = 0; c < 3; ++c) {
+      const float l = radiance[3 * i + c];
+      known &= !std::isnan(l);
+      rgba[4 * i + c] =
+          std::isnan(l) ? static_cast<unsigned char>(0) : quick_byte(static_cast<double>(l));
+    }
+    rgba[4 * i + 3] = known ? 255 : 0;
+  }
 }
 
 SphereDifference Sphere::difference(const Surface& s,

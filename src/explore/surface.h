@@ -111,14 +111,14 @@ struct SphereDifference {
       0;  ///< share of the pixels looked at; 0 without any, and then the others are 0, too
 };
 
-/// A sphere under one directional light, prepared once for many surfaces.
+/// A sphere under directional lights of equal irradiance, prepared once for many surfaces.
 class Sphere {
  public:
-  /// \param towards  the light, in the viewer's frame: x to the right, y up, z to the viewer
-  Sphere(std::size_t pixels, const Direction& towards);
-  /// Bytes of its radiance over the light's irradiance, exposed; transparent beside the sphere and where a table has no value.
+  /// \param towards  the lights, in the viewer's frame: x to the right, y up, z to the viewer
+  Sphere(std::size_t pixels, std::span<const Direction> towards);
+  /// Bytes of its radiance over one light's irradiance, exposed; transparent beside the sphere and where a table has no value.
   void draw(const Surface&, double exposure, std::span<unsigned char> rgba) const;
-  /// ΔE2000 between two spheres as a display shows them, over every seventh pixel where both are known.
+  /// ΔE2000 between two spheres as a display shows them, over every seventh pixel and light where both are known.
   SphereDifference difference(const Surface&, const Surface& reference, double exposure) const;
 
  private:

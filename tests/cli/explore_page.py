@@ -178,6 +178,10 @@ def drags(page):
     settle(page)
     expect(page.ask("view.light") != light and page.ask("look('sphere-1')") != picture, "a drag moves the sphere's light")
     expect(page.ask("Math.abs(view.light[0] + 0.2 / 0.96) < 0.02"), "to under the pointer")
+    picture = page.ask("look('sphere-1')")
+    page.ask("choose(document.getElementById('lamp'), 'rim light')")
+    settle(page)
+    expect(page.ask("look('sphere-1')") != picture, "other lights")
     page.wait("solid !== null")
     before = page.ask("picture_of('#lobe canvas')")
     expect(before["colours"] > 30, f"the lobe in space is drawn, in {before} colours")
@@ -199,6 +203,7 @@ def address_goes_round(page):
     page.ask(page_tools)
     settle(page)
     expect(page.ask("state()") == state, "the address holds the state")
+    expect(page.ask("$('lamp').value") == "rim light", "its light, too")
     expect(page.ask("['sphere-1', 'slice-1', 'sphere-0'].map(look)") == pictures, "and the pictures")
 
 

@@ -93,27 +93,29 @@ TEST(Surface, PaintedIsWhatADisplayShowsAndTransparentWhereNothingIsKnown) {
 }
 
 TEST(Surface, SphereIsThatOfTheReports) {
-  const Direction light = direction(Vector{0.5, 0.6, 0.62});
-  const LitSphere lit(std::span(&light, 1), 32);
   const Surface s = glossy();
-  std::vector<unsigned char> rgba(4 * 32 * 32, 7);
-  Sphere(32, light).draw(s, 3, rgba);
-  std::vector<FrameAngles<double>> x;
-  for (const auto& p : lit.points) x.push_back(frame_angles(p.at));
-  const auto f = evaluate(*s.model(), x);
-  std::vector<Rgb> rgb;
-  for (std::size_t i = 0; i < x.size(); ++i) rgb.push_back({f[0][i], f[1][i], f[2][i]});
-  const auto radiance = lit.radiance(rgb);
-  for (std::size_t i = 0; i < radiance.size(); ++i) {
-    const auto bytes = displayed_bytes(radiance[i], 3);
-    for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(rgba[4 * i + c], bytes[c], 2) << i;
-    EXPECT_EQ(rgba[4 * i + 3], lit.inside[i] ? 255 : 0);
+  for (const auto& lights : sphere_lights()) {
+    const LitSphere lit(lights.towards, 32);
+    std::vector<unsigned char> rgba(4 * 32 * 32, 7);
+    Sphere(32, lights.towards).draw(s, 3, rgba);
+    std::vector<FrameAngles<double>> x;
+    for (const auto& p : lit.points) x.push_back(frame_angles(p.at));
+    const auto f = evaluate(*s.model(), x);
+    std::vector<Rgb> rgb;
+    for (std::size_t i = 0; i < x.size(); ++i) rgb.push_back({f[0][i], f[1][i], f[2][i]});
+    const auto radiance = lit.radiance(rgb);
+    for (std::size_t i = 0; i < radiance.size(); ++i) {
+      const auto bytes = displayed_bytes(radiance[i], 3);
+      for (std::size_t c = 0; c < 3; ++c)
+        EXPECT_NEAR(rgba[4 * i + c], bytes[c], 2) << lights.name << i;
+      EXPECT_EQ(rgba[4 * i + 3], lit.inside[i] ? 255 : 0);
+    }
   }
 }
 
 TEST(Surface, SpheresDifferByWhatADisplayShows) {
   const Direction light = direction(Vector{0.5, 0.6, 0.62});
-  const Sphere sphere(48, light);
+  const Sphere sphere(48, std::span(&light, 1));
   const Surface s = glossy(), red("lambert", "kd=0.5,0.1,0.1", 3),
                 brighter("lambert", "kd=0.55,0.11,0.11", 3);
   const auto none = sphere.difference(s, s, 3);
@@ -142,7 +144,7 @@ TEST(Surface, OfATableHasItsValuesAtItsSamplesAndNoneWhereItHasNone) {
   const Surface nothing(std::move(t));
   EXPECT_TRUE(std::isnan(nothing(std::span(&place, 1))[1][0]));
   std::vector<unsigned char> rgba(4 * 32 * 32, 7);
-  Sphere(32, {0, 0, 1}).draw(nothing, 3, rgba);
+  Sphere(32, std::array{Direction{0, 0, 1}}).draw(nothing, 3, rgba);
   EXPECT_EQ(rgba[4 * (16 * 32 + 16) + 3], 0);
   EXPECT_NE(
       test::refusal([&] { albedo(nothing, std::array{0.0}, false); }, Exit::usage).find("table"),

@@ -175,8 +175,15 @@ int page_measured(int model, int table, std::size_t channel, std::size_t stride,
 GONIO_EXPORT(sphere) int page_sphere(std::size_t pixels, double x, double y, double z) {
   return guarded([&] {
     const double length = std::sqrt(x * x + y * y + z * z);
-    sphere =
-        std::make_unique<explore::Sphere>(pixels, Direction{x / length, y / length, z / length});
+    const Direction towards{x / length, y / length, z / length};
+    sphere = std::make_unique<explore::Sphere>(pixels, std::span(&towards, 1));
+    return 0;
+  });
+}
+/// The same under the lights of that number among those of the catalogue.
+GONIO_EXPORT(sphere_under) int page_sphere_under(std::size_t pixels, std::size_t lights) {
+  return guarded([&] {
+    sphere = std::make_unique<explore::Sphere>(pixels, sphere_lights().at(lights).towards);
     return 0;
   });
 }
