@@ -139,6 +139,7 @@ Exit run(const FitMapCall& o) {
   const MapCount n = fit_tiles(stack, t, grid, tiles, folder, std::ref(line), found.noise);
   line.line()("writing " + o.output);
   MapDocument d = gather_tiles(folder, out, threads_in_use());
+  d.left_out = found.left_out;
   d.warnings = warnings_of(found, stack.stack(), t.model);
   out.commit();
   line.line().clear();

@@ -23,6 +23,8 @@ void print(const MapDocument& d, const std::string& beside) {
   if (d.no_data) ended += fmt::format(", {} without a value", percent(d.no_data, texels));
   if (!beside.empty()) ended += "; " + beside;
   say_below("texels  ", ended);
+  if (d.left_out > 0)
+    say("values  {:.2g} % left out: no number, below 0, clipped or dark\n", 100 * d.left_out);
   if (!std::isnan(d.rms)) say("rms     {:.3g} on average, in the metric's unit\n", d.rms);
   if (50 * d.misfit > texels)  // of the right model one in 200
     say_below("misfit  ", fmt::format("{} of the texels are off by more than noise leaves",

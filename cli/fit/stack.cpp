@@ -1,6 +1,7 @@
 // gonio stack: photographs and the list of their lamps become the document that fit_map reads.
 #include "stack/stack.h"
 
+#include <algorithm>
 #include <numbers>
 #include <optional>
 
@@ -19,7 +20,7 @@ namespace {
 
 struct StackCall : Common {
   std::string lamps, images, output;
-  std::optional<double> white;
+  std::optional<double> white, saturation, floor;
   double reflectance = 1;
   bool linear = false;
 };
@@ -44,6 +45,11 @@ Exit run(const StackCall& o) {
   s.linear = o.linear;
   if (o.white)
     for (auto& image : s.images) image.scale = o.reflectance / (std::numbers::pi * *o.white);
+  s.saturation = o.saturation;
+  s.floor = o.floor;
+  const bool has_png = std::ranges::any_of(
+      s.images, [](const StackImage& image) { return image.path.ends_with(".png"); });
+  if (!s.saturation && has_png) s.saturation = 1;  // the largest number that a PNG has
   const Rectangle size = size_of_all(s);
   const std::string text = to_json(s);
   write_file(o.output, text);
@@ -78,6 +84,14 @@ void add_stack(CommandLine& line) {
   c.option("--white-reflectance", o->reflectance, "Reflectance of that tile")
       .in(0.01, 1.0)
       .show_default();
+  c.option("--saturation", o->saturation,
+           "Number of the images from which on light is clipped: left out (default: the largest of "
+           "PNG files)")
+      .in(1e-9, 1e30);
+  c.option(
+       "--floor", o->floor,
+       "Number of the images up to which there is shadow or noise: left out (default: nothing is)")
+      .in(0.0, 1e30);
   c.option("-o,--output", o->output, "Document to write; the images lie in its folder or below")
       .required();
   add_output(c, *o);

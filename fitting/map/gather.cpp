@@ -44,6 +44,8 @@ inline constexpr auto description<MapDocument> = std::tuple{
         Field{"not_converged", &MapDocument::not_converged, "the best seen is kept"},
         Field{"no_data", &MapDocument::no_data, "no value that can be compared"},
         Field{"misfit", &MapDocument::misfit, "off by more than noise leaves, however they ended"}},
+    Field{"left_out", &MapDocument::left_out,
+          "part of a sample's values that is not compared: no number, below 0, clipped or dark"},
     Field{"rms", &MapDocument::rms, "of the metric's residuals, on average over the texels"},
     Field{"warnings", &MapDocument::warnings,
           "what a sample of the texels says of the stack and the model"},

@@ -150,6 +150,8 @@ StackSurvey survey(const TexelSample& s, const TexelOptions& o) {
   StackSurvey found;
   const TexelFit given = fit_sample(s, o);
   for (std::size_t t = 0; t < s.texels; ++t) found.texels += variance_left(given, t) >= 0;
+  const auto taken = std::accumulate(given.count.begin(), given.count.end(), 0.0F);
+  found.left_out = 1 - double{taken} / static_cast<double>(s.values.size());
   if (found.texels < few_texels) return found;
   found.arrangement = other_arrangement(s, o, given);
   if (found.arrangement.sure) return found;  // all else would be judged by wrong directions

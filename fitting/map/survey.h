@@ -24,6 +24,7 @@ struct OddImage {
 
 struct StackSurvey {
   std::size_t texels = 0;  ///< that were looked at and have values
+  double left_out = 0;     ///< part of their values: no number, below 0, clipped or dark
   OtherArrangement arrangement;
   TexelNoise noise;
   std::string better;  ///< the model that leaves less than the one asked for; empty: none

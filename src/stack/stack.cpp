@@ -44,12 +44,12 @@ struct Description<SideMap<side>> {
   }
 };
 template <>
-inline constexpr auto description<StackImage> =
-    std::tuple{Field{"path", &StackImage::path, "of an OpenEXR file, an array of NumPy's or a PNG of 16 bits, linear",
-                     not_empty},
-               by_key(&StackImage::light), by_key(&StackImage::view),
-               Field{"scale", &StackImage::scale, "what its numbers are multiplied with",
-                     Numbers{0, 1e30, true}, or_default}};
+inline constexpr auto description<StackImage> = std::tuple{
+    Field{"path", &StackImage::path,
+          "of an OpenEXR file, an array of NumPy's or a PNG of 16 bits, linear", not_empty},
+    by_key(&StackImage::light), by_key(&StackImage::view),
+    Field{"scale", &StackImage::scale, "what its numbers are multiplied with",
+          Numbers{0, 1e30, true}, or_default}};
 template <>
 inline constexpr auto description<StackTruth> = std::tuple{
     Field{"model", &StackTruth::model, "that was evaluated", not_empty},
@@ -69,6 +69,12 @@ struct Description<Stack> {
               not_empty),
         field("normals", if_there(&Stack::normals),
               "path of an image with the normal of each texel, linear in [-1, 1]", not_empty),
+        field("saturation", if_there(&Stack::saturation),
+              "number of the images from which on light is clipped, and left out",
+              Numbers{0, 1e30, true}),
+        field("floor", if_there(&Stack::floor),
+              "number of the images up to which there is shadow or noise, left out",
+              Numbers{0, 1e30}),
         field("linear", &Stack::linear,
               "images in PNG are light, though they do not say so (gAMA 1)", or_default),
         field("images", &Stack::images, "one for each pair of light and view", Entries{1, 10'000}),

@@ -81,7 +81,10 @@ struct Stack {
   std::optional<std::vector<std::string>>
       channels;  ///< of each image, one or three; none: R, G, B, or the only one
   std::optional<std::string> normals;  ///< path of an image as that of SideMap; none: all are z
-  bool linear = false;                 ///< images in PNG are light, whatever they say of themselves
+  /// Numbers of the images, before they are scaled: from the one on a value is clipped light, up to the other it is a shadow or the camera's noise.
+  /// Both are left out; none: none is.
+  std::optional<double> saturation, floor;
+  bool linear = false;  ///< images in PNG are light, whatever they say of themselves
   std::vector<StackImage> images;
   std::optional<StackTruth> truth;
 

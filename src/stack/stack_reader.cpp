@@ -259,6 +259,13 @@ void StackReader::read(const Rectangle& part, StackPart& to) const {
   for_each_whole(images, [&](std::size_t i) {
     std::vector<float> read_values;
     read(images_[i], part, read_values);
+    if (stack_.saturation || stack_.floor) {
+      constexpr float far = std::numeric_limits<float>::infinity();
+      const auto clipped = static_cast<float>(stack_.saturation.value_or(double{far})),
+                 dark = static_cast<float>(stack_.floor.value_or(-double{far}));
+      for (float& v : read_values)
+        if (v >= clipped || v <= dark) v = nan;
+    }
     const StackImage& image = stack_.images[i];
     const auto light = direction_of(image.light), view = direction_of(image.view);
 

@@ -1,6 +1,7 @@
 // Lists of lamps: what they name, and what is refused.
 #include "stack/lamps.h"
 
+#include <cmath>
 #include <filesystem>
 #include <variant>
 
@@ -38,6 +39,21 @@ TEST(Lamps, BecomeAStackOfImagesSeenFromAbove) {
   EXPECT_EQ(direction_of(s.images[1].view)->z, 1);
   f.write("stack.json", to_json(s));
   EXPECT_EQ(StackReader(read_stack(f / "stack.json")).width(), stack_width);
+}
+
+TEST(Lamps, OfClippedAndDarkNumbersAreLeftOutBeforeTheyAreScaled) {
+  const Folder f;
+  write_dome(f, "2\nimg_0.exr 0 0 1\nimg_1.exr 0 0 1\n");
+  Stack s = stack_of_lamps(f / "dome/lamps.lp", "", f / "stack.json");
+  for (auto& image : s.images) image.scale = 100;
+  s.saturation = stack_value(0, 0, 7);
+  s.floor = stack_value(0, 0, 2);
+  f.write("stack.json", to_json(s));
+  StackPart part;
+  StackReader(read_stack(f / "stack.json")).read({0, 0, stack_width, stack_height}, part);
+  const auto values = part.piece(0).values;
+  for (std::size_t t = 0; t < stack_width * stack_height; ++t)
+    EXPECT_EQ(std::isnan(values[t]), t <= 2 || t >= 7) << t;
 }
 
 TEST(Lamps, AreRefusedByTheirLine) {
