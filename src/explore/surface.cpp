@@ -18,6 +18,7 @@ namespace gonio::explore {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
+const double grazing = std::sin(5 * degree);
 
 /// The same width under the names that an isotropic and an anisotropic model have for it.
 std::string other_width(std::string_view name) {
@@ -271,7 +272,10 @@ void Sphere::draw(const Surface& s, double exposure, std::span<unsigned char> rg
     std::vector<DirectionPair> at;
     at.reserve(n);
     for (const auto& p : lit_.points) at.push_back(p.at);
-    const Channels f = s(at);
+    Channels f = s(at);
+    for (auto& channel : f)
+      for (std::size_t i = 0; i < n; ++i)
+        if (std::isnan(channel[i]) && at[i].wi.z < grazing) channel[i] = 0;
     add([&](std::size_t c) { return f[f.size() == 3 ? c : 0].data(); });
   }
   for (std::size_t i = 0; i < lit_.inside.size(); ++i) {

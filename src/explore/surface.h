@@ -116,7 +116,8 @@ class Sphere {
  public:
   /// \param towards  the lights, in the viewer's frame: x to the right, y up, z to the viewer
   Sphere(std::size_t pixels, std::span<const Direction> towards);
-  /// Bytes of its radiance over one light's irradiance, exposed; transparent beside the sphere and where a table has no value.
+  /// Bytes of its radiance over one light's irradiance, exposed; transparent beside the sphere and where a table has no value. Where
+  /// light grazes, at less than 5°, little arrives and tables end: no value is 0 there.
   void draw(const Surface&, double exposure, std::span<unsigned char> rgba) const;
   /// ΔE2000 between two spheres as a display shows them, over every seventh pixel and light where both are known.
   SphereDifference difference(const Surface&, const Surface& reference, double exposure) const;

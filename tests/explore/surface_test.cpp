@@ -146,6 +146,10 @@ TEST(Surface, OfATableHasItsValuesAtItsSamplesAndNoneWhereItHasNone) {
   std::vector<unsigned char> rgba(4 * 32 * 32, 7);
   Sphere(32, std::array{Direction{0, 0, 1}}).draw(nothing, 3, rgba);
   EXPECT_EQ(rgba[4 * (16 * 32 + 16) + 3], 0);
+  // Light from the right grazes the middle: little arrives there, and no value is none.
+  Sphere(32, std::array{direction(Vector{1, 0, -0.05})}).draw(nothing, 3, rgba);
+  EXPECT_EQ(rgba[4 * (16 * 32 + 17) + 3], 255);
+  EXPECT_EQ(rgba[4 * (16 * 32 + 28) + 3], 0);
   EXPECT_NE(
       test::refusal([&] { albedo(nothing, std::array{0.0}, false); }, Exit::usage).find("table"),
       std::string::npos);
