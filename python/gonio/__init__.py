@@ -23,34 +23,19 @@ import numpy as _np
 import numpy.typing as _npt
 
 from . import _gonio
+from ._commands import columns, compare, convert, export, fit_map, plan, render, report, validate
+from ._document import Document, Path
+from ._fit import Fit, Parameter, Parameters
 from ._gonio import BadInput, Error, WrongUsage, __version__
 
 __all__ = [
-    "BadInput", "Document", "Error", "Table", "WrongUsage", "__version__", "albedo", "audit", "eval", "fit", "inspect", "models", "read",
-    "synth", "term",
+    "BadInput", "Document", "Error", "Fit", "Parameter", "Parameters", "Table", "WrongUsage", "__version__", "albedo", "audit", "columns",
+    "compare", "convert", "eval", "evaluate", "export", "fit", "fit_map", "inspect", "models", "plan", "read", "render", "report",
+    "synth", "term", "validate",
 ]
 
-Path = Union[str, "_os.PathLike[str]"]
 Values = Union[float, Sequence[float], _npt.NDArray[Any], str]
 """One number, one for each channel, or a word, as in ``metal="Au"``."""
-
-
-class Document(dict[str, Any]):
-    """A document of gonio: a ``dict`` of what the JSON holds, and ``text``, the JSON as the program prints it.
-
-    ``write`` leaves it as a file that the program reads.
-    """
-
-    text: str
-
-    def __init__(self, text: str) -> None:
-        super().__init__(_json.loads(text))
-        self.text = text
-
-    def write(self, path: Path) -> None:
-        """Writes ``text`` to a file."""
-        with open(path, "w", encoding="utf-8") as file:
-            file.write(self.text)
 
 
 class Table:
@@ -314,7 +299,7 @@ def inspect(table: Table | Path) -> Document:
 
 @_with_options(_gonio.HowFitted)
 def fit(table: Table | Path, model: str = "", *, models: str | Iterable[str] | None = None, jobs: int = 0,
-        options: _gonio.HowFitted) -> Document:
+        options: _gonio.HowFitted) -> Fit | Document:
     """Model fitted to a table, or several compared: the document of ``gonio fit --json``.
 
     Args:
@@ -325,7 +310,7 @@ def fit(table: Table | Path, model: str = "", *, models: str | Iterable[str] | N
         {options}
 
     Returns:
-        ``gonio.fit/1``, or ``gonio.models/1`` of several.  A fit that did not converge says so at ``["solver"]["termination"]``: that is no
+        A ``Fit``, the document ``gonio.fit/1`` with ``params``, ``warnings``, ``predict`` and ``residuals``; or ``gonio.models/1`` of several.  A fit that did not converge says so at ``["solver"]["termination"]``: that is no
         error here.  ``gonio.eval`` takes the document of a fit as a model.
 
     Raises:
@@ -339,11 +324,11 @@ def fit(table: Table | Path, model: str = "", *, models: str | Iterable[str] | N
         raise WrongUsage('models: found none, expected models to compare, or "all"')
     if isinstance(table, Table):
         if compared is None:
-            return Document(_gonio.fit_table(table._table, options, jobs))
+            return Fit(_gonio.fit_table(table._table, options, jobs), eval, lambda: table)
         return Document(_gonio.compare_table(table._table, options, compared, jobs))
     path = _os.fspath(table)
     if compared is None:
-        return Document(_gonio.fit_path(path, options, jobs))
+        return Fit(_gonio.fit_path(path, options, jobs), eval, lambda: read(path))
     return Document(_gonio.compare_path(path, options, compared, jobs))
 
 
@@ -375,6 +360,9 @@ def eval(model: Model | Table, theta_i: _npt.ArrayLike, phi_i: _npt.ArrayLike, t
     else:
         f = _gonio.evaluate(_model(model, parameters), *columns, jobs)
     return _np.moveaxis(f.reshape(f.shape[:1] + shape), 0, -1)
+
+
+evaluate = eval
 
 
 @_with_options(_gonio.AlbedoQuestion, rest="parameters")
