@@ -149,6 +149,7 @@ function show_buttons() {
   $("undo").disabled = !past.length, $("redo").disabled = !future.length;
   $("remove").disabled = items.length < 2 || !is_model(items[active]);
   for (const id of ["copy-spec", "copy-json"]) $(id).disabled = !is_model(items[active]);
+  $("copy-fit").disabled = !items.some(comparable);
   $("add").disabled = items.length >= colours;
 }
 
@@ -588,6 +589,7 @@ function connect() {
   addEventListener("hashchange", safely(() => { if (location.hash !== own_address) from_address(), finish(); }));
 
   $("copy-spec").onclick = () => copy(command());
+  $("copy-fit").onclick = () => copy(fit_command());
   $("copy-json").onclick = () => copy(document_text());
   $("copy-address").onclick = () => copy(location.href);
   // A reading under the pointer in both views of the cut; a drag turns the light.
@@ -625,6 +627,11 @@ function step_by_key(e, step) {
 
 // ---- what is taken away ---------------------------------------------------------------------------------------------------------
 const command = () => `gonio eval ${items[active].about.spec} --set ${settings_of(values_of(items[active]))}`;
+/// Fits the model that is moved to the first table beside it.
+function fit_command() {
+  const word = (name, text = name.startsWith("-") ? `./${name}` : name) => (/^[\w./+,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+  return `gonio fit ${word(items.find(comparable).name)} --model ${items[active].about.spec} -o fit.json`;
+}
 /// A document that gonio reads as it reads a fit's.
 function document_text() {
   const item = items[active], channels = item.channels === 1 ? ["f"] : ["r", "g", "b"];

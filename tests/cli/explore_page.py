@@ -219,6 +219,9 @@ def copies(page):
     for f, values in zip(evaluated(words, rows), shown):
         for a, b in zip(values, f):
             near(a, b, "the model copied")
+    fit = page.ask("fit_command()")
+    done = subprocess.run(fit.replace("gonio", f"'{gonio}'", 1) + " --quiet", shell=True, cwd=folder, capture_output=True, text=True)
+    expect(done.returncode == 0 and "gonio.fit/1" in (folder / "fit.json").read_text(), f"{fit}: {done.stderr}")
     svg = page.ask("svg_text('cut')")
     expect(svg.startswith("<svg") and "var(" not in svg.split("style=")[2].split('"')[1], "an SVG that stands alone")
     expect(page.ask("png_of('spheres').then((b) => b.size)") > 5000, "a PNG of the spheres")
