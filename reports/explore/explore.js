@@ -163,7 +163,7 @@ function show_surfaces() {
     pick.checked = i === active, see.checked = item.visible;
     pick.onchange = () => { active = i; show_model(), show_buttons(), make_pictures(), redraw(), finish(); };
     see.onchange = () => { item.visible = see.checked; make_pictures(), redraw(), finish(); };
-    const label = make("label", { for: `pick-${i}` }, item.name, make("small", {}, is_model(item) ? item.about.spec : item.said));
+    const label = make("label", { for: `pick-${i}` }, item.name, make("small", {}, is_model(item) ? [item.about.spec, page.items[item.origin]?.said].filter(Boolean).join(". ") : item.said));
     return make("div", { class: "surface" }, see, make("span", { class: "dot", style: `background: var(--c${i})` }), pick, label);
   }));
 }

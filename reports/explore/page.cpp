@@ -208,6 +208,10 @@ Json page_json(const ExploredModel& m) {
           {"spec", m.model.model.model.spec},
           {"channels", m.model.channels},
           {"values", values},
+          {"said", m.undetermined.empty()
+                       ? ""
+                       : fmt::format("The fit has no value for {}: it begins with another.",
+                                     fmt::join(m.undetermined, ", "))},
           {"intervals", intervals}};
 }
 
@@ -237,6 +241,29 @@ Json page_json(const ExploredTable& t) {
           {"samples", base64(float_bytes(t.samples))}};
 }
 
+/// Gives values that a fit could not determine one to begin with; answers which.
+std::vector<std::string> fill_undetermined(FittedModel& fit) {
+  std::vector<std::string> names;
+  std::optional<Model> model;
+  for (auto& [name, values] : fit.parameters) {
+    double sum = 0, known = 0;
+    for (const double v : values)
+      if (!std::isnan(v)) sum += v, ++known;
+    if (known == static_cast<double>(values.size())) continue;
+    if (!model) model = compose(fit.model, std::max<std::size_t>(fit.channels.size(), 1));
+    const ModelParameter* const p = model->find(name);
+    if (!p) continue;  // roughness beside alpha
+    for (std::size_t k = 0; k < values.size(); ++k) {
+      if (!std::isnan(values[k])) continue;
+      values[k] = known > 0 ? sum / known : p->about->start;
+      names.push_back(values.size() == 1        ? name
+                      : fit.channels.size() > k ? name + "." + fit.channels[k]
+                                                : name + "." + std::to_string(k));
+    }
+  }
+  return names;
+}
+
 /// Names as a page shows them: of a file without its folder, of a spec in words; numbered where two would be the same.
 std::vector<std::string> short_names(const std::vector<Explored>& all) {
   std::vector<std::string> names;
@@ -261,7 +288,14 @@ ExploredModel explore_model(const std::string& name,
                             const std::vector<Setting>& set,
                             std::optional<std::size_t> channels) {
   const bool is_file = !file_in(name).empty();
-  ExploredModel m{name, model_argument(name, set, is_file ? std::nullopt : channels), {}};
+  ExploredModel m{name, {}, {}};
+  if (is_file && std::filesystem::exists(name)) {
+    FittedModel fit = read_fitted_model(name);
+    m.undetermined = fill_undetermined(fit);
+    m.model = model_argument(name, fit, set);
+  } else {
+    m.model = model_argument(name, set, channels);
+  }
   if (m.model.model.model.channels != 1 && m.model.model.model.channels != 3)
     throw bad_input(name, "channels", std::to_string(m.model.model.model.channels),
                     "1 or 3: more are not drawn");

@@ -27,6 +27,8 @@ struct ExploredModel {
   ModelArgument model;
   /// 95 % intervals of a fit's parameters, low and high by channel; NaN where there is none.
   std::vector<std::pair<std::string, std::vector<std::array<double, 2>>>> intervals;
+  /// Values that the fit could not determine ("kd.b"): they begin where the other channels are, or where a fit begins.
+  std::vector<std::string> undetermined = {};
 };
 
 /// A table as a page holds it: resampled, but for the values that are drawn as points.

@@ -125,6 +125,15 @@ TEST(ExplorePage, FitHasItsIntervals) {
             nlohmann::json::parse("[[0.1, 0.3], [null, null], [0.35, 0.45]]"));
   EXPECT_FALSE(one[0]["intervals"].contains("f0"));
   EXPECT_EQ(one[0]["values"]["kd"], nlohmann::json::parse("[0.2, 0.3, 0.4]"));
+  EXPECT_EQ(one[0]["said"], "");
+  const auto open = f.write(
+      "open.json", R"({"schema": "gonio.fit/1", "model": "lambert+ggx/smith_ggx.correlated/schlick",
+"channels": ["r", "g", "b"], "parameters": {"kd": {"value": [0.2, null, 0.4]}, "alpha": {"value": null}, "roughness": {"value": null},
+"f0": {"value": [0.04, 0.04, 0.04]}}})");
+  const auto filled = explored_data(explore_page_html({explore_model(open, {})}))["items"][0];
+  EXPECT_NEAR(filled["values"]["kd"][1], 0.3, 1e-12);
+  EXPECT_EQ(filled["values"]["alpha"][0], 0.3);
+  EXPECT_EQ(filled["said"], "The fit has no value for kd.g, alpha: it begins with another.");
   EXPECT_EQ(one[0]["name"], "fit.json");
   EXPECT_EQ(one[1]["name"], "fit.json, 2");
   EXPECT_EQ(explored_data(explore_page_html({explore_model(
