@@ -23,15 +23,15 @@ import numpy as _np
 import numpy.typing as _npt
 
 from . import _gonio
-from ._commands import columns, compare, convert, export, fit_map, plan, render, report, validate
+from ._commands import columns, compare, convert, explore, export, fit_map, plan, render, report, validate
 from ._document import Document, Path
 from ._fit import Fit, Parameter, Parameters
 from ._gonio import BadInput, Error, WrongUsage, __version__
 
 __all__ = [
     "BadInput", "Document", "Error", "Fit", "Parameter", "Parameters", "Table", "WrongUsage", "__version__", "albedo", "audit", "columns",
-    "compare", "convert", "eval", "evaluate", "export", "fit", "fit_map", "inspect", "models", "plan", "read", "render", "report",
-    "synth", "term", "validate",
+    "compare", "convert", "eval", "evaluate", "explore", "export", "fit", "fit_map", "inspect", "models", "plan", "read", "render",
+    "report", "synth", "term", "validate",
 ]
 
 Values = Union[float, Sequence[float], _npt.NDArray[Any], str]

@@ -6,6 +6,7 @@ import os as _os
 import subprocess as _subprocess
 import tempfile as _tempfile
 from collections.abc import Iterator
+from contextlib import ExitStack as _ExitStack
 from contextlib import contextmanager as _contextmanager
 from typing import Any, Literal
 
@@ -152,6 +153,22 @@ def render(scene: Path, output: Path, **options: Any) -> Document:
         WrongUsage, BadInput: as ``compare``.
     """
     return Document(_run("render", [scene], {**options, "output": output, "json": True}))
+
+
+def explore(*what: Any, output: Path, **options: Any) -> Document:
+    """A page to play with, of models, fits and tables side by side: the document of ``gonio explore --json``.
+
+    Args:
+        what: eight at most: a ``Table``, a fit, a model, or the file of one.
+        output: the page, .html.
+        options: those of the program.
+
+    Raises:
+        WrongUsage, BadInput: as ``compare``.
+    """
+    with _ExitStack() as files:
+        words = [files.enter_context(_as_file(w, ".json" if hasattr(w, "parameters") else ".csv")) for w in what]
+        return Document(_run("explore", words, {**options, "output": output, "json": True}))
 
 
 def fit_map(stack: Path, output: Path, model: str | None = None, **options: Any) -> Document:
