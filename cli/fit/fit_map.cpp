@@ -11,6 +11,7 @@
 #include "cli/line/terminal.h"
 #include "fitting/map/gather.h"
 #include "fitting/map/survey.h"
+#include "reports/pages/map_page.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct FitMapCall : Common {
-  std::string stack, output, tile_size = "256";
+  std::string stack, output, html, tile_size = "256";
   std::vector<std::string> tiles;
   TexelOptions texels;
   bool as_given = false;
@@ -112,7 +113,9 @@ Exit run(const FitMapCall& o) {
   use(o);
   const TexelOptions& t = o.texels;
   const auto tile_size = two_numbers(o.tile_size, "--tile-size", 1, longest_side, true);
-  check_outputs({o.stack}, {o.output});
+  check_outputs({o.stack}, o.html.empty() ? std::vector{o.output} : std::vector{o.output, o.html});
+  if (!o.html.empty() && !o.tiles.empty())
+    throw wrong_usage("--html: a page is of a whole map, and --tile fits a part");
 
   Progress progress(o.quiet);
   progress("opening the stack");
@@ -142,6 +145,7 @@ Exit run(const FitMapCall& o) {
   d.left_out = found.left_out;
   d.warnings = warnings_of(found, stack.stack(), t.model);
   out.commit();
+  if (!o.html.empty()) write_file(o.html, map_page_html(d));
   line.line().clear();
   print_map(d, o, n.kept ? fmt::format("{} of {} tiles kept from before", n.kept, n.tiles) : "");
   std::error_code kept;
@@ -166,6 +170,7 @@ void add_fit_map(CommandLine& line) {
   c.option("--tile-size", o->tile_size, "WIDTH,HEIGHT of tiles, or one number for both")
       .show_default();
   c.option("-o,--output", o->output, "OpenEXR file of the map; of --tile a folder").required();
+  c.option("--html", o->html, "A page of the map: pictures, histograms, where the model fits");
   c.flag("--as-given", o->as_given,
          "Fit even where the images say that the directions are others than the stack has");
   add_follow_paths(c, *o);

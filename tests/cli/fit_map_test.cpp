@@ -102,6 +102,23 @@ TEST(FitMapCommand, EndsWithExitCodeFourWhereMostTexelsDoNotConverge) {
   EXPECT_GE(o.json()["rms"], 0);
 }
 
+TEST(FitMapCommand, MakesAPageThatSaysWhereTheModelFits) {
+  const Folder f;
+  make_stack(f);
+  ASSERT_EQ(gonio(f, "fit_map s/stack.json -o maps.exr --html m.html").code, 0);
+  const std::string right = read_bytes(f / "m.html");
+  for (const char* part : {"kd in colour", "alpha", "misfit", "20 × 12 texels"})
+    EXPECT_NE(right.find(part), right.npos) << part;
+  EXPECT_NE(right.find("no more than noise leaves"), right.npos);
+  ASSERT_EQ(
+      gonio(f, "fit_map s/stack.json --model lambert --metric log -o maps.exr --html m.html").code,
+      0);
+  const std::string wrong = read_bytes(f / "m.html");
+  EXPECT_NE(wrong.find("does not fit"), wrong.npos);
+  expect_one_line(gonio(f, "fit_map s/stack.json -o maps.exr --html maps.exr"), 2, "maps.exr");
+  expect_one_line(gonio(f, "fit_map s/stack.json --tile 0,0 -o t --html m.html"), 2, "--html");
+}
+
 TEST(FitMapCommand, PrintsOneDocumentForJson) {
   const Folder f;
   make_stack(f);
