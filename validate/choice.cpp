@@ -355,8 +355,12 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
       const auto at = root.at("domain").at("metal");
       (at.is_array() ? at.at(i) : at).fail("a metal that is known");
     }
-  for (const auto* s : {&c.shipped, &c.reference})
-    if (!s->model.empty()) expect_own_files_below(path, s->spec());
+  for (auto* s : {&c.shipped, &c.reference}) try {
+      s->model = own_files_beside(path, s->model);
+    } catch (const Error& e) {
+      if (e.code() != Exit::usage) throw;
+      // no model: what follows says so
+    }
   share_parameters(root, c);
   check_coat(root, c.shipped, "model", "coating", "scattering");
   if (c.has_reference)

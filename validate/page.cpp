@@ -61,6 +61,10 @@ inline constexpr auto description<Validation> = std::tuple{
     Field{"number", &Validation::number, "in which a shader computes it"},
     Field{"holds", [](const Validation& v) { return v.holds(); }, "whether every budget is kept"},
     Field{"budgets", &Validation::budgets, "the cheapest to check first"},
+    Field{own_files_key, if_there([](const Validation& v) {
+            return own_files({v.model, v.reference});
+          }),
+          own_files_meaning},
     Field{"suggestion", if_there(&Validation::suggestion),
           "where one was asked for and there is one"},
     inlined(&Validation::pictures)};

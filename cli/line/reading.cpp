@@ -5,11 +5,10 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "brdf/model/fitted_model.h"
-#include "brdf/model/spec.h"
+#include "brdf/model/own_files.h"
 #include "foreign/function.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace gonio::cli {
 
@@ -35,30 +34,23 @@ bool names_table(const std::string& word) {
 
 std::string read_as(const std::string& spec, const ReadingWords& words) {
   if (words.arguments.empty() && words.bounds.empty() && !words.includes) return spec;
-  std::string all;
   bool any = false;
-  for (const auto& part : parse_spec(spec)) {
-    std::vector<std::string> names;
-    for (const auto& name : part) {
-      names.push_back(name);
-      if (!foreign::is_name(name)) continue;
-      any = true;
-      std::string options;
-      const auto add = [&](const std::string& o) { options += (options.empty() ? "" : ";") + o; };
-      for (const auto& a : words.arguments) add("argument." + a);
-      for (const auto& b : words.bounds) add(b);
-      if (words.includes) add("includes=" + *words.includes);
-      const auto close = name.rfind('}');
-      names.back() = close == name.npos ? fmt::format("{}{{{}}}", name, options)
-                                        : fmt::format("{};{}}}", name.substr(0, close), options);
-      names.back() = foreign::text_of(foreign::parse_name(names.back()));
-    }
-    all += fmt::format("{}{}", all.empty() ? "" : "+", fmt::join(names, "/"));
-  }
+  const auto read = with_own_names(spec, [&](const std::string& name) {
+    any = true;
+    std::string options;
+    const auto add = [&](const std::string& o) { options += (options.empty() ? "" : ";") + o; };
+    for (const auto& a : words.arguments) add("argument." + a);
+    for (const auto& b : words.bounds) add(b);
+    if (words.includes) add("includes=" + *words.includes);
+    const auto close = name.rfind('}');
+    return foreign::text_of(foreign::parse_name(
+        close == name.npos ? fmt::format("{}{{{}}}", name, options)
+                           : fmt::format("{};{}}}", name.substr(0, close), options)));
+  });
   if (!any)
     throw wrong_usage(fmt::format(
         "--argument, --includes and --bounds go with a shader's function, not with {}", spec));
-  return all;
+  return read;
 }
 
 }  // namespace gonio::cli

@@ -1,4 +1,5 @@
 // gonio eval: a model or a table at given directions.
+#include "answer/file_functions.h"
 #include "answer/model_argument.h"
 #include "answer/values.h"
 #include "base/file.h"
@@ -52,6 +53,7 @@ Exit run(const EvalCall& o) {
     const auto model = model_argument(read_as(o.what, o.reading), parse_settings(o.set));
     evaluate_at(model.model, at, columns_for(t, model.channels));
     document["model"] = model.model.model.spec;
+    add_own_files(document, model.model.model.spec);
   }
   if (!o.output.empty()) {
     OutputFile out(o.output);

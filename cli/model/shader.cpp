@@ -3,9 +3,11 @@
 
 #include <algorithm>
 
+#include "answer/file_functions.h"
 #include "answer/model_argument.h"
 #include "base/file.h"
 #include "base/json/reader.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/fit_misfit.h"
 #include "cli/line/command.h"
@@ -32,8 +34,12 @@ struct ShaderCall : Common {
   bool without_evidence = false;
 };
 
-/// Term of that id, prefix included; a spec that is one word means the model.
+/// Term of that id, prefix included, or of a file's function that is no whole model; a spec that is one word means the model.
 std::optional<std::size_t> term_named(const std::string& subject) {
+  if (is_foreign(subject)) {
+    const auto term = find_term(subject);
+    return catalogue()[term].role() == Role::diffuse ? std::nullopt : std::optional(term);
+  }
   const auto terms = catalogue();
   const auto at = std::ranges::find(terms, subject, &TermEntry::id);
   if (at == terms.end()) return {};
@@ -134,6 +140,31 @@ shader::TracedFormula traced(const ShaderCall& o, std::vector<std::string>& rema
   return shader::trace_model(model, precision, o.inputs, o.derivatives, compensating);
 }
 
+/// True where a GLSL file's own function is asked for as it is.
+bool is_asked_as_it_is(const ShaderCall& o) {
+  return o.language == shader::Language::glsl && foreign::is_name(o.subject) && o.set.empty() &&
+         o.grey.empty() && o.inputs.empty() && o.derivatives.empty() && !o.compensation &&
+         !o.material && o.name == "brdf" && foreign::parse_name(o.subject).file.ends_with(".glsl");
+}
+
+/// A file's function, of which evidence is asked: no formula is traced, for its text may have what no other shader is written of.
+shader::TracedFormula untraced(const ShaderCall& o) {
+  const auto term = find_term(o.subject);
+  shader::TracedFormula f{};
+  f.id = o.subject;
+  f.precision = o.precision;
+  shader::UsedTerm used{term, std::string(catalogue()[term].id()), {}};
+  used.known.resize(catalogue()[term].parameters.size());
+  f.terms.push_back(std::move(used));
+  return f;
+}
+
+Operations operations_of(const std::string& own_function) {
+  Operations all;
+  for (const auto& f : file_functions(own_function).functions) all += f.operations;
+  return all;
+}
+
 /// What E of the function's arguments is looked up in.
 std::string table_remark(const shader::TracedFormula& f, const std::string& masking) {
   const bool of_both =
@@ -176,9 +207,11 @@ Exit run(const ShaderCall& o) {
   shader::ShaderDocument d;
   std::vector<std::string>
       of_fit;  // which come first: no shader is nearer to the table than its fit
-  d.formula = traced(o, of_fit);
+  const bool as_it_is = is_asked_as_it_is(o);
+  d.formula = as_it_is ? untraced(o) : traced(o, of_fit);
   d.writing.language = o.language;
-  d.writing.name = o.name;
+  d.writing.name =
+      as_it_is ? foreign_term(d.formula.terms[0].term)->function->name.function : o.name;
   if (!o.without_evidence)
     d.writing.remarks = shader::evidence_of(
         d.formula, d.writing.language,
@@ -189,7 +222,12 @@ Exit run(const ShaderCall& o) {
   if (o.table && !reads)
     throw wrong_usage("--table goes with a --compensation that looks its albedo up");
   if (reads && masking) d.writing.remarks.push_back(table_remark(d.formula, *masking));
-  d.source = shader::shader_source(d.formula, d.writing);
+  const auto operations = as_it_is ? operations_of(o.subject) : d.formula.operations();
+  d.source =
+      as_it_is ? shader::own_shader_source(
+                     d.formula, d.writing, operations,
+                     InputFile(foreign::parse_name(o.subject).file).read_rest(most_document_bytes))
+               : shader::shader_source(d.formula, d.writing);
   if (table) {
     if (!masking)
       throw wrong_usage("--table: the first lobe is not of ndf.ggx and a masking of alpha alone");
@@ -206,7 +244,7 @@ Exit run(const ShaderCall& o) {
   else if (!out)
     fmt::print("{}", d.source);
   else
-    say("wrote {}: {} operations\n", *o.output, d.formula.operations().total());
+    say("wrote {}: {} operations\n", *o.output, operations.total());
   return Exit::done;
 }
 
@@ -219,9 +257,10 @@ void add_shader(CommandLine& line) {
       "gonio shader lambert.coupled+ggx/smith_ggx.correlated/schlick --language glsl "
       "--precision half -o brdf.glsl",
       run);
-  c.option("SPEC", o->subject,
-           "Model, the fit.json of a fit, the plan.json of a plan, or a term or a map as `gonio "
-           "models` lists it")
+  c.option(
+       "SPEC", o->subject,
+       "Model, the fit.json of a fit, the plan.json of a plan, or a term or a map as `gonio "
+       "models` lists it; of a GLSL file's function alone GLSL is its own text with that header")
       .required();
   c.option("--language", o->language, "glsl, wgsl or slang").required();
   c.option("--precision", o->precision, "Number that it computes in: float or half").show_default();

@@ -22,7 +22,7 @@ struct ValidateCall : Common {
 
 void print(const Validation& v, bool suggested) {
   for (const auto& b : v.budgets) {
-    say("{}  {:<14}{:>20} of {:<20}{}\n", b.holds ? "kept  " : "BROKEN", b.budget,
+    say("{}  {:<14}{:>20} of {:<19} {}\n", b.holds ? "kept  " : "BROKEN", b.budget,
         value_text(b.budget, b.found), value_text(b.budget, b.limit), b.evidence);
     if (!b.holds) say("        {}\n", sentence(b));
   }

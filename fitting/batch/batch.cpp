@@ -16,6 +16,7 @@
 #include "base/memory_budget.h"
 #include "base/sha256.h"
 #include "base/text.h"
+#include "brdf/model/own_files.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 
@@ -205,6 +206,8 @@ std::string made_with(const HowFitted& how) {
     if (!nothing(value))
       text +=
           fmt::format("; {} {}", name, value.is_string() ? value.get<std::string>() : value.dump());
+  for (const auto& f : own_files({how.options.model}))
+    text += fmt::format("; {} {}", f.file, f.sha256);
   return text;
 }
 

@@ -9,6 +9,7 @@
 #include "base/error.h"
 #include "base/json/describe.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/own_files.h"
 #include "fitting/export/surface.h"
 #include "fitting/export/target.h"
 #include "geometry/half_difference.h"
@@ -51,7 +52,9 @@ inline constexpr auto description<Export> = std::tuple{
     Field{"preview", &Export::preview, "whether the file has a sphere to show the material on"},
     Field{"refitted", &Export::refitted, "whether these were fitted in the target's model"},
     Field{"lost", &Export::lost, "what the target cannot express"},
-    Field{"clamped", &Export::clamped, "what was outside the target's range"}};
+    Field{"clamped", &Export::clamped, "what was outside the target's range"},
+    Field{own_files_key, if_there([](const Export& e) { return own_files({e.model}); }),
+          own_files_meaning}};
 static_assert(describes_every_member<Export>());
 
 namespace {

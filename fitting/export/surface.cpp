@@ -3,11 +3,15 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <numbers>
 
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/in_number/one_term.h"
+#include "brdf/model/evaluate.h"
 #include "brdf/model/reflectances.h"
 #include "brdf/term/map.h"
+#include "geometry/frame_of_angles.h"
 #include "optics/f0.h"
 #include "optics/fresnel.h"
 #include "optics/fresnel_approximate.h"
@@ -43,6 +47,48 @@ std::array<double, 2> index_of(double f0, double edge) {
   return best;
 }
 
+/// The first guess of a whole model that is a function of a file: what it shows with light and view together, tilted away from the
+/// normal.  Far out lies the diffuse base; GGX falls to half its peak 1/(4 π α²) where tan² θ = (√2 − 1) α².
+Surface surface_of_function(const BoundModel& b) {
+  constexpr std::size_t steps = 400;
+  std::vector<FrameAngles<double>> at;
+  const auto theta = [](std::size_t k) {  // finely where narrow peaks fall off
+    const double part = static_cast<double>(k) / steps;
+    return 0.5 * std::numbers::pi * 0.9 * part * part * part;
+  };
+  for (std::size_t k = 0; k <= steps; ++k) {
+    const double c = std::cos(theta(k)), s = std::sin(theta(k));
+    at.push_back(with_frame(Angles<double>{c, c, c, 1, s * s}));
+  }
+  const auto f = evaluate(b, at);
+  Surface s;
+  s.channels = b.model.channels;
+  SurfaceLobe lobe;
+  const auto mean_at = [&](std::size_t k) {
+    double sum = 0;
+    for (const auto& channel : f) sum += channel[k];
+    return sum;
+  };
+  const double base = mean_at(steps), peak = mean_at(0) - base;
+  std::size_t half = 1;
+  while (half < steps && mean_at(half) - base > peak / 2) ++half;
+  lobe.alpha_x = lobe.alpha_y =
+      std::clamp(std::tan(theta(half)) / std::sqrt(std::sqrt(2.0) - 1), 1e-3, 1.0);
+  for (const auto& channel : f) {
+    s.kd.push_back(std::clamp(std::numbers::pi * channel[steps], 0.0, 1.0));
+    const double above = std::max(channel[0] - channel[steps], 0.0);
+    const double f0 =
+        std::clamp(4 * std::numbers::pi * lobe.alpha_x * lobe.alpha_x * above, 0.0, 0.99);
+    lobe.f0.push_back(f0);
+    lobe.f82_tint.push_back(1);
+    const auto [eta, k] = f0 <= 0.25 ? std::array{mapped<IorFromF0, double>(f0)[0], 0.0}
+                                     : index_of(f0, schlick_at_edge(f0));
+    lobe.eta.push_back(eta), lobe.k.push_back(k);
+  }
+  if (peak > 1e-3 * base) s.lobes.push_back(std::move(lobe));
+  return s;
+}
+
 }  // namespace
 
 double SurfaceLobe::largest_f0() const {
@@ -56,6 +102,9 @@ double Surface::largest_kd() const {
 }
 
 Surface surface_of(const BoundModel& fit) {
+  if (fit.model.lobes.empty() && !fit.model.diffuse.empty() &&
+      foreign_term(fit.model.diffuse[0].term))
+    return surface_of_function(fit);
   const BoundModel b = in_reflectances(fit);
   Surface s;
   s.channels = b.model.channels;
@@ -127,11 +176,16 @@ std::vector<std::string> lost_by_all(const BoundModel& fit,
     masked |= !(g.starts_with("smith_ggx") && g.ends_with(masking));
   }
   for (const auto& d : fit.model.diffuse)
-    shape |= std::ranges::none_of(diffuse, [&](std::string_view name) {
+    shape |= !foreign_term(d.term) && std::ranges::none_of(diffuse, [&](std::string_view name) {
       const auto id = short_id(catalogue()[d.term].id());
       return id == name || id == std::string(name) + ".coupled";
     });
   std::vector<std::string> lost;
+  for (const auto& d : fit.model.diffuse)
+    if (foreign_term(d.term))
+      lost.push_back("The function of the file: a diffuse term and a lobe of " +
+                     whose.substr(0, whose.size() - (whose.ends_with("'s") ? 2 : 0)) +
+                     " stand for it.");
   if (exponent) lost.emplace_back("The exponent of the distribution: " + whose + " is 2.");
   if (distribution) lost.emplace_back("The distribution: " + whose + " is GGX.");
   if (masked)

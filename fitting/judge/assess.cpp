@@ -114,9 +114,9 @@ class Walk {
     if (!influences_) return;
     for (auto* sums : {&fourth_, &moves_}) *sums = Column<F>(most_rows * padding);
     for (std::size_t m = 0; m < s.groups().widest(); ++m) per_root_[m] = Column<F>(size, F(1));
-    columns_.resize(max_columns);
+    columns_.resize(most_columns);
     for (auto& column : columns_) column = Column<F>(size);
-    for (std::size_t k = 0; k + 1 < max_columns; ++k) seen_[k] = columns_[k].data();
+    for (std::size_t k = 0; k + 1 < most_columns; ++k) seen_[k] = columns_[k].data();
     leverage_ = columns_.back().data();
   }
 
@@ -133,8 +133,10 @@ class Walk {
       part_.moves_by_arm = part_.fourth_by_arm;
     }
     place_.assign(keys_ ? keys_->count() : 0, none);
-    bread_.assign(sampling_.channels(), {});
-    meat_.assign(sampling_.channels(), {});
+    for (auto* sums : {&bread_, &meat_}) {
+      sums->clear();
+      for (const auto& x : channel_) sums->emplace_back(x.free.size() + 1);
+    }
     while (in.next()) block(in);
     for (std::size_t c = 0; c < sampling_.channels(); ++c) {
       bread_[c].scatter(channel_[c].free, n, part_.bread, nullptr);
@@ -152,7 +154,7 @@ class Walk {
   static constexpr std::size_t size = BlockReader<F>::block;
   struct Channel {
     std::vector<std::size_t> free;
-    std::array<const F*, max_columns> j{};
+    std::array<const F*, most_columns> j{};
     std::vector<std::size_t> upper;  ///< entries of the matrices, row by row from the diagonal on
     Influences::Channel influence;
     std::vector<F> product, beta;  ///< its influence, as kernels read it
@@ -265,7 +267,7 @@ class Walk {
       kernels_.gram[k + 1](in.padded(), score_, score_, x.j.data(), meat_[c].lanes());
       return;
     }
-    static constexpr auto add = add_scores_of(std::make_index_sequence<max_columns + 1>());
+    static constexpr auto add = add_scores_of(std::make_index_sequence<most_columns>());
     (this->*add[k])(runs_[m], x);
   }
 
@@ -354,7 +356,7 @@ class Walk {
   const Influences* influences_;
   static constexpr F all = F(1) - F(1e-6);  ///< leverage from which on a value is alone
   std::vector<Column<F>> columns_;
-  std::array<F*, max_columns - 1> seen_{};  ///< derivatives, 0 where masked
+  std::array<F*, most_columns - 1> seen_{};  ///< derivatives, 0 where masked
   F* leverage_ = nullptr;
   Column<F> fourth_, moves_;  ///< lane sums of each row
   std::array<Column<F>, Groups::most> per_root_;

@@ -47,7 +47,7 @@ struct Value {
   double f;             ///< [1/sr]
   double variance = 0;  ///< of the residual, up to a factor
   double noise = std::numeric_limits<double>::quiet_NaN();  ///< of ln f, as its neighbours show it
-  std::array<double, max_columns> j{};  ///< derivatives by the unknowns of its channel
+  std::array<double, most_columns> j{};  ///< derivatives by the unknowns of its channel
   std::size_t gain = 0;  ///< unknown of its incident angle's own scale, where there are such
 };
 /// One sample, or one incident angle of one cell: its values share their errors.

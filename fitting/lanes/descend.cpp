@@ -445,12 +445,13 @@ constexpr std::array<WorthOfColumns, max_columns + 1> worth_table(std::index_seq
 
 template <Role role>
 std::array<std::span<const TexelTerms<float>::Derivatives>, 2> texel_terms_of();
+std::span<const TexelTerms<float>::Derivatives> texel_terms_of_files();
 std::span<const FusedTexels> fused_texels();
 
 #define GONIO_TEXT_OF(name) #name
 #define GONIO_TEXT(name) GONIO_TEXT_OF(name)
 
-/// The terms of all roles in the catalogue's order.
+/// The terms of all roles in the catalogue's order; behind them functions of files, for given normals only.
 /// \param tilt  1: those of tilted normals
 static std::span<const TexelTerms<float>::Derivatives> all_terms(std::size_t tilt) {
   static const auto all = [] {
@@ -459,6 +460,8 @@ static std::span<const TexelTerms<float>::Derivatives> all_terms(std::size_t til
                            texel_terms_of<Role::fresnel>(), texel_terms_of<Role::diffuse>()})
       for (std::size_t t = 0; t < 2; ++t)
         joined[t].insert(joined[t].end(), of[t].begin(), of[t].end());
+    const auto of_files = texel_terms_of_files();
+    joined[0].insert(joined[0].end(), of_files.begin(), of_files.end());
     return joined;
   }();
   return all[tilt];

@@ -11,6 +11,7 @@
 
 #include "base/error.h"
 #include "base/json/describe.h"
+#include "brdf/model/own_files.h"
 #include "image/exr_file.h"
 
 #include <fmt/format.h>
@@ -49,7 +50,9 @@ inline constexpr auto description<MapDocument> = std::tuple{
     Field{"rms", &MapDocument::rms, "of the metric's residuals, on average over the texels"},
     Field{"warnings", &MapDocument::warnings,
           "what a sample of the texels says of the stack and the model"},
-    Field{"parameters", &MapDocument::parameters, "by their names"}};
+    Field{"parameters", &MapDocument::parameters, "by their names"},
+    Field{own_files_key, if_there([](const MapDocument& d) { return own_files({d.model}); }),
+          own_files_meaning}};
 
 std::string to_json(const MapDocument& d) {
   return json_text(d);

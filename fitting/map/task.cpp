@@ -41,6 +41,10 @@ std::vector<bool> shapes_of(const Model& m) {
       for (const std::size_t k : t->parameters)
         std::fill_n(is.begin() + static_cast<std::ptrdiff_t>(m.parameters[k].first),
                     m.parameters[k].count, true);
+  for (const auto& t : m.diffuse)  // of a whole model what is no colour
+    if (foreign_term(t.term))
+      for (const std::size_t k : t.parameters)
+        if (!m.parameters[k].about->per_channel) is[m.parameters[k].first] = true;
   if (const auto* t = m.tangent()) is[t->first] = true;
   return is;
 }
@@ -59,6 +63,14 @@ std::vector<float> rungs(const ModelParameter& q, const Range& range, std::size_
   if (is_alpha(q.name))
     return lobes > 1 ? between({0.02, 0.08, 0.25, 0.7})
                      : between({0.01, 0.03, 0.07, 0.14, 0.25, 0.45, 0.8});
+  if (lobes == 0) {  // a person's own
+    std::vector<float> spread;
+    for (const double part : {1.0 / 6, 0.5, 5.0 / 6})
+      spread.push_back(static_cast<float>(range.low > 0 && range.high > 20 * range.low
+                                              ? range.low * std::pow(range.high / range.low, part)
+                                              : range.low + part * (range.high - range.low)));
+    return spread;
+  }
   if (q.about->name == "tail") return between({0.3, 1});
   if (q.about->name == "gamma") return between({1.5, 3});
   return between({q.about->start});
@@ -179,8 +191,14 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
   if (o.refine_normals && turns())
     throw wrong_usage(fmt::format(
         "normals are refined of isotropic models alone: '{}' is anisotropic", model().spec));
-  for (const auto* t : terms_of(model()))
-    expect_catalogue_term(t->term, "maps are fitted by the catalogue's own terms");
+  for (const auto* t : terms_of(model())) {
+    const auto* own = foreign_term(t->term);
+    if (own && o.refine_normals)
+      throw wrong_usage(
+          fmt::format("{}: normals are refined of the catalogue's terms, whose derivatives by the "
+                      "normal are known",
+                      foreign::text_of(own->function->name)));
+  }
   unknowns = unknowns_of(problem, o.refine_normals);
   is_shape = shapes_of(model());
   unknown_of.assign(model().value_count + 2, unknowns.count);

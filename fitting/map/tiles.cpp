@@ -9,6 +9,7 @@
 #include "base/json/describe.h"
 #include "base/numbers.h"
 #include "base/text.h"
+#include "brdf/model/own_files.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,17 +52,22 @@ std::vector<Tile> TileGrid::all() const {
 }
 
 MapAttributes attributes_of(const StackReader& stack, const TexelOptions& options) {
+  // A tile of a file's function belongs to the bytes that the file had.
+  std::string shaders;
+  for (const auto& f : own_files({options.model}))
+    shaders += fmt::format("{}{} {}", shaders.empty() ? "" : ", ", f.file, f.sha256);
   return {{"gonio:version", GONIO_VERSION},
           {"gonio:model", options.model},
           {"gonio:options", json_line(options)},
           {"gonio:stack", stack.digest()},
+          {"gonio:shaders", shaders.empty() ? "none" : shaders},
           {"gonio:channels", fmt::format("{}", fmt::join(stack.channels(), ","))}};
 }
 
 MapAttributes map_attributes(const Image& header, const std::string& path) {
   MapAttributes all;
-  for (const char* name :
-       {"gonio:version", "gonio:model", "gonio:options", "gonio:stack", "gonio:channels"})
+  for (const char* name : {"gonio:version", "gonio:model", "gonio:options", "gonio:stack",
+                           "gonio:shaders", "gonio:channels"})
     all[name] = attribute_of(header, name, path, "a tile of gonio fit_map");
   return all;
 }

@@ -5,6 +5,7 @@
 #include <array>
 
 #include "base/describe.h"
+#include "brdf/model/own_files.h"
 #include "fitting/result/document.h"
 
 namespace gonio {
@@ -145,14 +146,18 @@ inline constexpr auto description<FitDocument> = std::tuple{
           Field{"masked", &FitDocument::masked, "values left out, by reason"}},
     Field{"bin_sensitivity", &FitDocument::sensitivity, "empty where there are no bins"},
     Field{"certificate", &FitDocument::certificate,
-          "search for a lower optimum; null where none was asked for"}};
+          "search for a lower optimum; null where none was asked for"},
+    Field{own_files_key, if_there([](const FitDocument& d) { return own_files({d.model}); }),
+          own_files_meaning}};
 static_assert(describes_every_member<FitDocument>());
 
 template <>
-inline constexpr auto description<Comparison> =
-    std::tuple{Field{"path", &Comparison::path, "path of the table"},
-               Field{"model", at(&Comparison::model, &FittedModel::model), ""},
-               Field{"parameters", per_name(at(&Comparison::model, &FittedModel::parameters)), ""},
-               Field{"residuals", &Comparison::residuals, "as in a fit document"}};
+inline constexpr auto description<Comparison> = std::tuple{
+    Field{"path", &Comparison::path, "path of the table"},
+    Field{"model", at(&Comparison::model, &FittedModel::model), ""},
+    Field{"parameters", per_name(at(&Comparison::model, &FittedModel::parameters)), ""},
+    Field{"residuals", &Comparison::residuals, "as in a fit document"},
+    Field{own_files_key, if_there([](const Comparison& c) { return own_files({c.model.model}); }),
+          own_files_meaning}};
 
 }  // namespace gonio

@@ -60,8 +60,8 @@ class Pass {
   ModelDerivatives<F> derivatives_;
   std::vector<F> values_;
   F *link_, *link_slope_, *r_, *slope_;
-  std::vector<std::vector<std::size_t>> free_;        ///< [channel][derivative]
-  std::vector<std::array<const F*, max_columns>> j_;  ///< ∂f/∂slot
+  std::vector<std::vector<std::size_t>> free_;         ///< [channel][derivative]
+  std::vector<std::array<const F*, most_columns>> j_;  ///< ∂f/∂slot
 };
 
 /// The fused pass of a model, where there is one.
@@ -210,20 +210,25 @@ NormalEquations Accumulator<F>::normal_equations(std::span<const double> values)
   const std::size_t n = free_.size();
   std::vector<NormalEquations> parts(data_.tasks.size());
   for_each_whole(parts.size(), [&](std::size_t task) {
-    std::vector<GramSums<F>> sums(model_.channels);
+    std::vector<GramSums<F>> sums;
     alignas(64) std::array<F, padding> cost{};
     auto& e = parts[task];
     e = {ArrowMatrix(free_.layout()), std::vector<double>(n), 0};
+    const auto begin = [&](const auto& columns) {
+      for (std::size_t c = 0; c < model_.channels; ++c) sums.emplace_back(columns(c).size() + 1);
+    };
     const auto collect = [&](const auto& columns) {
       for (const F lane : cost) e.cost += static_cast<double>(lane) / 2;
       for (std::size_t c = 0; c < model_.channels; ++c) sums[c].scatter(columns(c), n, e.h, &e.g);
     };
     if (const auto& fused = passes_->fused; fused && huber_ == std::numeric_limits<F>::max()) {
+      begin([&](std::size_t c) { return std::span(fused.at(c)); });
       fused.run(values, data_, data_.tasks[task], sums, cost.data());
       return collect([&](std::size_t c) { return fused.at(c); });
     }
     Pass<F>& pass = passes_->pass.local();
     pass.set(values);
+    begin([&](std::size_t c) { return std::span(pass.free(c)); });
     for (const auto& b : data_.tasks[task])
       pass.run(b, data_, huber_, cost.data(), [&](std::size_t c) { pass.add(b.n, c, sums[c]); });
     collect([&](std::size_t c) { return pass.free(c); });

@@ -54,10 +54,13 @@ inline constexpr double no_huber = std::numeric_limits<double>::max();
 template <class F>
 class GramSums {
  public:
+  /// \param columns  of r and J together
+  explicit GramSums(std::size_t columns) : lanes_(columns * (columns + 1) / 2 * padding) {}
   F* lanes() { return lanes_.data(); }
   double entry(std::size_t e) const {
     double sum = 0;
-    for (std::size_t i = 0; i < padding; ++i) sum += static_cast<double>(lanes_[e * padding + i]);
+    for (std::size_t i = 0; i < padding; ++i)
+      sum += static_cast<double>(lanes_.data()[e * padding + i]);
     return sum;
   }
   /// Adds the part of J (and of r to g, unless that is null) where it belongs.
@@ -68,8 +71,7 @@ class GramSums {
                std::vector<double>* g) const;
 
  private:
-  static constexpr std::size_t most = max_columns * (max_columns + 1) / 2;
-  alignas(64) std::array<F, most * padding> lanes_{};
+  Column<F> lanes_;
 };
 
 /// One pass is one evaluation of the model with its derivatives at every sample.

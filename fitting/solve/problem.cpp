@@ -178,10 +178,10 @@ Problem pose(std::size_t channels, double offset, const FitOptions& o) {
   for (std::size_t c = 0; c < b.model.channels; ++c) {
     std::size_t count = 0;
     for (const auto& p : b.model.parameters) count += free[p.slot(c)];
-    if (count >= max_columns)
+    if (count >= most_columns)
       throw wrong_usage(
           fmt::format("{} free parameters per channel; at most {} can be fitted at once", count,
-                      max_columns - 1));
+                      most_columns - 1));
   }
   FreeSlots slots(b.model, std::move(free));
   return {o, std::move(b), std::move(slots), std::move(bounds), std::move(narrowed), offset};

@@ -4,10 +4,11 @@
 #include <cmath>
 
 #include "base/error.h"
-#include "base/json/reader.h"
+#include "base/json/describe.h"
 #include "base/letters.h"
 #include "brdf/in_number/number.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/own_files.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/albedo/normalisation.h"
 #include "reports/measure/samples.h"
@@ -29,7 +30,7 @@ void take_smallest(std::optional<FoundAt>& w, double v, const std::string& at) {
   if (!w || v < w->value) w = FoundAt{v, at};
 }
 
-/// Values of parameters that a function is looked at with: of the width five, of others their ends; colours at their upper end.
+/// Values of parameters that an audit combines: five widths, the ends and the default of others, colours at their upper end.
 std::vector<std::vector<double>> looked_at(std::span<const Parameter> parameters) {
   const auto width = width_of(parameters);
   std::size_t rows = 1;
@@ -65,7 +66,7 @@ std::string half_text(const stability::Answer& a) {
 std::string in_half(std::size_t term, const std::vector<std::pair<std::string, Range>>& domain) {
   stability::Question q;
   q.subject = stability::subjects_of_term(term)
-                  .back();  // of a distribution by NoH alone, as shaders have it
+                  .back();  // a distribution by its cosine NoH, as shaders have it
   for (const auto& [name, range] : domain)
     for (const auto& i : q.subject.inputs)
       if (i.name == name) stability::set_domain(q.subject, name, range);
@@ -219,7 +220,11 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
     j["not_looked_at"] = a.not_looked_at;
     rows.push_back(j);
   }
-  return text_of(Json{{"rows", rows}});
+  Json document{{"rows", rows}};
+  for (const auto& a : all)
+    if (const auto& f = a.of.function; f && !document.contains(own_files_key))
+      document[std::string(own_files_key)] = json_of(std::vector{OwnFile{f->name.file, f->sha256}});
+  return text_of(document);
 }
 
 std::string text_of(const FunctionAudit& a) {
@@ -358,15 +363,18 @@ TermComparison compare_terms(const std::string& a,
 }
 
 std::string to_json(const TermComparison& c) {
-  return text_of(Json{{"a", c.a},
-                      {"b", c.b},
-                      {"read_as", c.read_as.empty() ? Json() : Json(c.read_as)},
-                      {"measure", c.measure},
-                      {"largest", c.largest},
-                      {"at", c.at},
-                      {"rms", c.rms},
-                      {"operations", {c.operations_a, c.operations_b}},
-                      {"half", {c.half_a, c.half_b}}});
+  Json document{{"a", c.a},
+                {"b", c.b},
+                {"read_as", c.read_as.empty() ? Json() : Json(c.read_as)},
+                {"measure", c.measure},
+                {"largest", c.largest},
+                {"at", c.at},
+                {"rms", c.rms},
+                {"operations", {c.operations_a, c.operations_b}},
+                {"half", {c.half_a, c.half_b}}};
+  const auto files = own_files({c.a, c.b});
+  if (!files.empty()) document[std::string(own_files_key)] = json_of(files);
+  return text_of(document);
 }
 
 std::string text_of(const TermComparison& c) {

@@ -30,7 +30,7 @@ bool is_rough(std::string_view name) {
   return plain_name(name).find("rough") != std::string::npos;
 }
 
-/// Of how the file's parameters stand for the form's: [form's parameter] → the file's, or none.
+/// Which of the file's parameters stands for each of the form's: [form's parameter] → the file's, or none.
 struct Pairing {
   std::vector<std::optional<std::size_t>> of;
   std::optional<std::size_t> width;  ///< the file's, where the form has an alpha
@@ -52,7 +52,7 @@ Pairing pair_up(const TermEntry& own, const TermEntry& form) {
   return p;
 }
 
-/// One form, by one power of the width, against the file's function.
+/// Compares the file's function with one form, alpha being one power of its width.
 NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing, double power) {
   const auto &own = catalogue()[term], &other = catalogue()[form];
   const auto& rows = auditing::rows_of(own.role());
@@ -161,7 +161,7 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       if (power != 1 && !pairing.width) continue;
       const auto n = compared(term, form, pairing, power);
       if (!std::isfinite(n.difference)) continue;
-      // Of forms that are the same by rounding the first, and the plainest map.
+      // Forms may differ by rounding only: the first is taken, and the plainest map.
       if (!best || n.difference < std::min(0.5 * best->difference, best->difference - 1e-9))
         best = n;
     }

@@ -31,14 +31,14 @@ struct NearestForm {
 
 /// The nearest form of the same role; none where nothing has a value that can be compared.
 std::optional<NearestForm> nearest_form(std::size_t foreign_term);
-/// What is likely wrong, a sentence each; empty where the function is the form that its names promise, or is like none.
+/// The likely mistakes, a sentence each; empty where the function is what its names promise, or resembles no form.
 std::vector<std::string> likely_slips(std::size_t foreign_term, const NearestForm&);
 /// True where the file's function is that form, by these maps.
 bool is_same(const NearestForm&);
 
-/// Parameters of a file at which it is looked: within its bounds, of a width without bounds in [0.05, 1].
+/// Values at which a function is looked at: within the parameter's bounds, or within [0.05, 1] where it has none.
 std::vector<double> values_between(const Parameter&, std::size_t count);
-/// The parameter that is a width by its name: alpha, roughness, m …; none where no name says it.
+/// The parameter whose name says that it is a width: alpha, roughness, m …
 std::optional<std::size_t> width_of(std::span<const Parameter>);
 
 }  // namespace gonio

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "answer/file_functions.h"
 #include "base/error.h"
 #include "base/json/reader.h"
 #include "geometry/direction.h"
@@ -162,6 +163,7 @@ std::string to_json(const AlbedoAnswer& r, const AlbedoQuestion& q) {
   // A walk has no bound; 4 standard errors are left once in 16000 times.
   document["error_bound"] = is_walked(q) ? 4 * r.error : r.error;
   if (is_solved(q)) add_scattered(document, r, q);
+  add_own_files(document, r.model);
   return text_of(document);
 }
 

@@ -1,8 +1,9 @@
 #include "answer/file_functions.h"
 
 #include "base/error.h"
-#include "base/json/reader.h"
+#include "base/json/describe.h"
 #include "base/text.h"
+#include "brdf/model/own_files.h"
 #include "foreign/interpret.h"
 
 #include <fmt/format.h>
@@ -64,6 +65,11 @@ Json json_of(const FileFunction& of) {
 }
 
 }  // namespace
+
+void add_own_files(Json& document, const std::string& spec) {
+  const auto files = own_files({spec});
+  if (!files.empty()) document[std::string(own_files_key)] = json_of(files);
+}
 
 Operations operations_of(const foreign::Program& p) {
   using C = Counted<double>;

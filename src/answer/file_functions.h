@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "base/json/reader.h"
 #include "foreign/function.h"
 #include "number/counted.h"
 
@@ -26,6 +27,9 @@ FileFunctions file_functions(const std::string& name);
 std::string to_json(const FileFunctions&);
 /// As a person reads it, a paragraph for each function.
 std::string text_of(const FileFunctions&);
+
+/// Adds the files that a spec takes functions from, with their hashes, where there are any.
+void add_own_files(Json& document, const std::string& spec);
 
 /// Operations of a program, those that are done once for given parameters left out.
 Operations operations_of(const foreign::Program&);

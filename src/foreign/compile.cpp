@@ -50,7 +50,7 @@ std::string functions_of_doubles() {
   return s;
 }
 
-/// Textures at coordinates of doubles: they compile, so that what does not read one can be used, and are refused when they are read.
+/// Declares texture functions for doubles: a file that has them compiles, and only functions that read a texture are refused.
 std::string textures_of_doubles() {
   std::string s;
   for (const auto& [sampler, n] : {std::pair{"sampler2D", 2}, {"samplerCube", 3}, {"sampler3D", 3}})
@@ -75,7 +75,7 @@ std::string head_of(Language language) {
   return s;
 }
 
-/// Without what names the source's language, which an older validator may not know.
+/// Drops the instructions that name the source's language, which an older validator may not know.
 std::vector<std::uint32_t> without_language(const std::vector<std::uint32_t>& words) {
   if (words.size() < 5) return words;
   std::vector<std::uint32_t> out(words.begin(), words.begin() + 5);

@@ -28,7 +28,7 @@ constexpr std::uint32_t spirv_pointer = 32;  ///< OpTypePointer
 // ---- names of arguments
 // ---------------------------------------------------------------------------
 
-/// "n_dot_l", "NdotL" and "NoL" are one: "nol" and its like, without what does not tell.
+/// The name in lower case without underscores: "n_dot_l" and "NdotL" become "ndotl".
 std::string plain(std::string_view name) {
   std::string s;
   for (const char c : name)
@@ -70,7 +70,7 @@ const std::map<std::string, std::string_view>& vectors() {
   return all;
 }
 
-/// The name of a cosine between two of n l v h t b, whichever way it is written; empty: none.
+/// The usual name of a cosine between two of n l v h t b, however it is written; empty where it is none.
 std::string cosine_of(const std::string& s) {
   if (s == "costheta" || s == "cosine" || s == "costhetad") return "voh";
   if (s == "costhetai" || s == "costhetal") return "nol";
@@ -95,7 +95,7 @@ std::string cosine_of(const std::string& s) {
   return "";
 }
 
-/// What an argument of that name and size stands for: N L V H X Y, a cosine, or nothing: a parameter.
+/// What an argument of that name and size stands for: N L V H X Y or a cosine; empty for a parameter.
 std::string direction_of(const std::string& name, std::size_t size, const Reading& reading) {
   const auto given = reading.arguments.find(name);
   const std::string s = plain(given == reading.arguments.end() ? name : given->second);
@@ -183,7 +183,7 @@ std::shared_ptr<const Compiled> file_of(const std::string& path) {
   return known;
 }
 
-/// Functions that give a number or a colour, by name; of one that is overloaded the last.
+/// Functions that give a number or a colour, by name; the last of those that share a name.
 std::map<std::string, Id> functions_of(const SpirvModule& m) {
   std::map<std::string, Id> all;
   for (const auto& [id, f] : m.functions()) {
@@ -195,7 +195,7 @@ std::map<std::string, Id> functions_of(const SpirvModule& m) {
   return all;
 }
 
-/// The function that a file is about: a .brdf's BRDF, one that is called so, or the last that takes two directions.
+/// The function that a file means: one called BRDF, or else the last that takes two directions.
 std::string main_function(const Compiled& c, const std::string& path) {
   const SpirvModule& m = *c.module;
   const auto all = functions_of(m);
@@ -224,7 +224,7 @@ std::string main_function(const Compiled& c, const std::string& path) {
 // ---- from a function of a file to a term
 // -----------------------------------------------------------
 
-/// A parameter as the text has it: so many numbers with a name.
+/// A parameter as the text declares it: a name for several numbers.
 struct Raw {
   std::string name;
   std::size_t size, first;  ///< its numbers among all
@@ -417,7 +417,7 @@ class Builder {
     return std::ranges::any_of(f_.programs,
                                [&](const Program& p) { return reads(p, true, angle(name)); });
   }
-  /// What its arguments say; of one that takes both cosines, its name.
+  /// Decides by the arguments what the function stands for; where it takes both cosines, by its name.
   Stands stands() const {
     const bool l = reads_angle("nol"), v = reads_angle("nov"), facing = reads_angle("voh");
     bool frame = false;
@@ -512,7 +512,7 @@ class Builder {
     f_.includes = cosine && pi ? "cosine,pi" : cosine ? "cosine" : pi ? "pi" : "nothing";
     f_.guessed = true;
   }
-  /// The program's value as gonio has it: f in 1/sr, V without its G.
+  /// Divides the value by what it includes, so that it is f in 1/sr, or V.
   void scale(Program& p) {
     Ref r = p.outputs[0];
     const auto has = [&](std::string_view what) {
@@ -535,6 +535,10 @@ class Builder {
 };
 
 }  // namespace
+
+std::string sha256_of(const std::string& file) {
+  return file_of(file)->source.sha256;
+}
 
 void provide(const std::string& file, const std::string& content) {
   auto made = compiled(source_of(file, content));

@@ -87,6 +87,8 @@ struct Entry {
 Function read_function(const Name&, std::optional<Stands> as = {});
 /// Every function of a file that gives a number or a colour, those with refusals included.
 std::vector<Entry> list_functions(const std::string& file);
+/// SHA-256 of a file's bytes as they were compiled.
+std::string sha256_of(const std::string& file);
 /// Gives a text as the content of a file of that name, for programs that have no file.
 void provide(const std::string& file, const std::string& content);
 

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What shaders call beyond what every Real has (+ − × ÷ < select √ exp log), of each number that a program runs in.
+/// The functions that shaders call and that not every Real has: pow, sin, floor … for each number that a program runs in.
 
 #include <algorithm>
 #include <array>
@@ -18,7 +18,7 @@
 
 namespace gonio::foreign::inline GONIO_ARCH {
 
-/// One function of one number, or of two, for those that take its name.
+/// Names of these functions, each of one number or of two.
 enum class Call { pow, atan2, exp2, log2, sin, cos, asin, acos, atan, floor };
 
 template <class F>
@@ -50,7 +50,7 @@ F called(Call f, const F& x, const F& y) {
   return floor(x);
 }
 
-/// Of a plain number, or one that has the functions itself: a register, fifty digits.
+/// Plain numbers, and those that have the functions themselves: a register, fifty digits.
 template <class T>
 struct Functions {
   static auto less_equal(const T& a, const T& b) { return a <= b; }

@@ -18,7 +18,7 @@
 
 namespace gonio::foreign {
 
-/// What a person's text has that cannot be run, and the line of it (0: none in particular).
+/// Thrown for text that cannot be run, with its line; 0 where no line is to blame.
 struct Refused : std::runtime_error {
   Refused(const std::string& what, int at) : std::runtime_error(what), line(at) {}
   int line;
@@ -119,14 +119,14 @@ class Program {
   Ref fold_truths(Op op, Ref a, Ref b);
 };
 
-/// What the outputs need.
+/// The program without nodes that no output needs.
 Program trimmed(const Program&);
-/// The parameters and numbers of the sample that the outputs depend on.
+/// True where an output depends on this parameter, or on this number of the sample.
 bool reads(const Program&, bool of_sample, std::size_t index);
 /// Each output followed by its derivatives by parameters 0 … count − 1, and by the frame's turn [1/°] where `turn`; one that is 0 is
 /// the constant.
 Program with_derivatives(const Program&, std::size_t count, bool turn = false);
-/// The outputs of all, what they share computed once.
+/// One program with the outputs of all, which computes once what they share.
 /// \param index  (number of a program, its parameter) → parameter of the whole
 Program merged(const std::vector<const Program*>&,
                const std::function<std::size_t(std::size_t, std::size_t)>& index);

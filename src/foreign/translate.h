@@ -29,7 +29,7 @@ struct Translation {
   std::vector<Note> notes;
 };
 
-/// \throws Refused  of what no pure function of numbers does, with the line
+/// \throws Refused  with the line of the first instruction that no pure function of numbers has
 Translation translate(const SpirvModule&, Id function, const Binding&);
 
 }  // namespace gonio::foreign

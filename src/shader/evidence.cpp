@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <set>
 
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "stability/answer.h"
 
@@ -106,7 +107,7 @@ std::vector<std::string> evidence_of(const TracedFormula& f,
   if (f.terms.empty())
     sentences.emplace_back(
         "What its roundings cost was not looked at: gonio stability asks of terms and models.");
-  if (f.is_model) {
+  if (f.is_model && !is_foreign(f.id)) {  // a file's function is one term, looked at above
     progress(f.id);
     Question q;
     q.subject = subject_of(f);

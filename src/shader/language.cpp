@@ -160,8 +160,20 @@ std::string Syntax::joined(Trace::Kind kind,
       break;
   }
   // Vectors of booleans have no && there.
-  return both ? fmt::format("bvec3(uvec3({}) & uvec3({}))", a, b)
-              : fmt::format("bvec3(uvec3({}) | uvec3({}))", a, b);
+  return both ? fmt::format("mix(bvec3(false), {}, {})", b, a)
+              : fmt::format("mix({}, bvec3(true), {})", b, a);
+}
+
+std::string Syntax::of_all_channels(const std::string& mask) const {
+  switch (language_) {
+    case Language::wgsl:
+      return fmt::format("vec3<bool>({})", mask);
+    case Language::slang:
+      return fmt::format("bool3({})", mask);
+    case Language::glsl:
+      break;
+  }
+  return fmt::format("bvec3({})", mask);
 }
 
 std::string Syntax::opposite(const std::string& mask, bool colour) const {

@@ -47,6 +47,8 @@ class Syntax {
                      const std::string& a,
                      const std::string& b,
                      bool colour) const;
+  /// A mask of one number for three channels.
+  std::string of_all_channels(const std::string& mask) const;
   std::string opposite(const std::string& mask, bool colour) const;
   std::string choice(const std::string& mask,
                      const std::string& a,

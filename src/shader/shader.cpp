@@ -158,6 +158,7 @@ class Body {
   }
   std::string mask(int k, bool colour) const {
     const auto& n = node(k);
+    if (colour && !coloured(k)) return syntax_.of_all_channels(mask(k, false));
     if (n.kind == Kind::less) return syntax_.less(as(n.of[0], colour), as(n.of[1], colour), colour);
     if (n.kind == Kind::no) return syntax_.opposite(mask(n.of[0], colour), colour);
     return syntax_.joined(n.kind, mask(n.of[0], colour), mask(n.of[1], colour), colour);
@@ -230,9 +231,11 @@ std::string text_of(const Operations& operations) {
   return words.empty() ? "none" : fmt::format("{}", fmt::join(words, ", "));
 }
 
-std::string header(const TracedFormula& f, const Writing& w) {
-  std::string text =
-      comment(fmt::format("{}, written by gonio shader: do not edit, write it again.", f.id));
+std::string header(const TracedFormula& f,
+                   const Writing& w,
+                   std::string_view what,
+                   const Operations& operations) {
+  std::string text = comment(fmt::format("{}, {}", f.id, what));
   for (const auto& t : f.terms) {
     const About& about = *catalogue()[t.term].about;
     text += comment(fmt::format("{} {}: {}.  {}", t.part, about.id, about.formula, about.source));
@@ -249,7 +252,7 @@ std::string header(const TracedFormula& f, const Writing& w) {
     text += comment(
         "WGSL has no word that keeps a compiler from regrouping sums and products: bits may differ "
         "from machine to machine.");
-  text += comment("operations: " + text_of(f.operations()));
+  text += comment("operations: " + text_of(operations));
   if (f.derivatives > 0)
     text += comment(
         "What is known of the error is of the value: that of its derivatives is not, and in half "
@@ -418,6 +421,18 @@ class Functions {
 
 }  // namespace
 
+std::string own_shader_source(const TracedFormula& f,
+                              const Writing& w,
+                              const Operations& operations,
+                              const std::string& text) {
+  const auto version = text.starts_with("#version") ? text.find('\n') : text.npos;
+  const auto below = version == text.npos ? 0 : version + 1;
+  return text.substr(0, below) +
+         header(f, w, "as its file has it; gonio shader looked at it and wrote these lines.",
+                operations) +
+         "\n" + text.substr(below);
+}
+
 std::string structure_name(const TracedFormula& f, const Writing& w) {
   return title_case(w.name) + (f.derivatives > 0 ? "Derivatives" : "Values");
 }
@@ -425,8 +440,10 @@ std::string structure_name(const TracedFormula& f, const Writing& w) {
 std::string shader_source(const TracedFormula& f, const Writing& w) {
   check_function_name(w.name);
   const Functions functions(f, w);
-  return functions.preamble() + header(f, w) + "\n" + functions.structure() +
-         functions.of_cosines() + (f.is_model ? functions.of_directions() : "");
+  return functions.preamble() +
+         header(f, w, "written by gonio shader: do not edit, write it again.", f.operations()) +
+         "\n" + functions.structure() + functions.of_cosines() +
+         (f.is_model ? functions.of_directions() : "");
 }
 
 }  // namespace gonio::shader

@@ -24,6 +24,13 @@ void check_function_name(const std::string&);
 /// \throws Error  of such a name
 std::string shader_source(const TracedFormula&, const Writing&);
 
+/// A person's own text under the header: what is known of its functions goes above it, below its #version.
+/// \param operations  of a sample   \param text  of the file
+std::string own_shader_source(const TracedFormula&,
+                              const Writing&,
+                              const Operations& operations,
+                              const std::string& text);
+
 /// Name of the function of cosines: what is called NAME of directions is NAME_of_cosines.
 std::string function_of_cosines(const TracedFormula&, const Writing&);
 

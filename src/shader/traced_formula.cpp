@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "brdf/formula/scattering.h"
+#include "brdf/function/any_function.h"
 #include "brdf/function/map_functions.h"
 #include "number/dual.h"
 #include "scene/kernel/multiple.h"
@@ -81,7 +82,11 @@ class Tracer {
                                         : std::nullopt);
     formula_.terms.push_back(std::move(used));
     formula_.trace.begin(name);
-    auto q = term_function<T>(index)(parameters, angles_);
+    if (const auto* own = foreign_term(index); own && own->function->programs.size() > 1)
+      throw wrong_usage(fmt::format(
+          "{}: its channels are formulas of their own, and gonio shader writes one for all",
+          foreign::text_of(own->function->name)));
+    auto q = any_function<T>(index)(parameters, angles_);
     call(q.num, q.whole ? name : name + "_num");
     if (!q.whole) call(q.den, name + "_den");
     formula_.trace.begin("f");
@@ -125,7 +130,7 @@ class Tracer {
   T at_normal_incidence(std::size_t fresnel, std::span<const T> parameters) const {
     auto facing = angles_;
     facing.voh = T(1);
-    return term_function<T>(fresnel)(parameters, facing).value();
+    return any_function<T>(fresnel)(parameters, facing).value();
   }
   void finish(const T& value, std::span<const std::string> derivatives) {
     formula_.results.push_back({"value", value.node()});
@@ -385,6 +390,11 @@ TracedFormula trace_model(const BoundModel& bound,
     trace<Half>(bound, arguments, derivatives, compensating, formula);
   else
     trace<float>(bound, arguments, derivatives, compensating, formula);
+  // A function of a file may read directions although the surface may be turned: whoever calls it
+  // gives any frame.
+  formula.anisotropic |= std::ranges::any_of(formula.angles, [](const Argument& a) {
+    return a.name.starts_with('X') || a.name.starts_with('Y');
+  });
   return formula;
 }
 

@@ -1,5 +1,7 @@
 // An answer as a document.
 #include "base/json/describe.h"
+#include "brdf/catalogue/registry.h"
+#include "brdf/model/own_files.h"
 #include "stability/answer.h"
 
 namespace gonio {
@@ -71,7 +73,15 @@ struct Description<stability::Answer> {
         field("tolerance", at(&A::looked, at(&L::tolerance, &stability::Tolerance::relative)),
               "relative, that was looked for"),
         field("settled", at(&A::looked, &L::settled),
-              "searches from two seeds agree within a factor of two")};
+              "searches from two seeds agree within a factor of two"),
+        field(own_files_key, if_there(shaders), own_files_meaning)};
+  }
+  static std::vector<OwnFile> shaders(const stability::Answer& a) {
+    const std::string_view id = a.id;
+    for (const auto role : names_of<Role>)
+      if (id.starts_with(role) && id.substr(role.size()).starts_with('.'))
+        return own_files({std::string(id.substr(role.size() + 1))});
+    return own_files({a.id});
   }
   static std::optional<double> safe_from(const stability::Answer& a) {
     return a.safe_from ? a.safe_from->value : std::nullopt;

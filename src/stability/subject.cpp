@@ -116,12 +116,6 @@ std::size_t angle_count(Given given) {
   return angles_given(given).size();
 }
 
-bool is_of_a_file(const Subject& s) {
-  if (s.term) return foreign_term(*s.term);
-  return std::ranges::any_of(terms_of(*s.model),
-                             [](const TermUse* t) { return foreign_term(t->term); });
-}
-
 void expect_bounded(const Subject& s) {
   constexpr double unbounded = 1e29;
   for (const auto& i : s.inputs)

@@ -52,9 +52,6 @@ Subject subject_of(std::string_view id_or_spec, std::string_view form);
 /// Narrows the domain of an input; refuses a name it has not, and ends that are reversed, not numbers or outside what is legal.
 void set_domain(Subject&, std::string_view input, Range);
 
-/// True where a function of a person's file is part of it.
-bool is_of_a_file(const Subject&);
-
 /// Wrong usage where an input has no bounds: a parameter of a person's file of which nothing is said.
 void expect_bounded(const Subject&);
 

@@ -105,11 +105,6 @@ bool is_foreign(std::string_view name) {
   return foreign::is_name(name);
 }
 
-void expect_catalogue_term(std::size_t term, std::string_view what) {
-  if (const auto* f = foreign_term(term))
-    throw wrong_usage(fmt::format("{}: {}", foreign::text_of(f->function->name), what));
-}
-
 std::size_t foreign_term_named(std::string_view name, std::optional<Role> role) {
   for (const auto prefix : names_of<Role>)
     if (name.starts_with(std::string(prefix) + ".") && is_foreign(name.substr(prefix.size() + 1))) {

@@ -40,8 +40,6 @@ std::size_t term_of_channel(std::size_t term, std::size_t channel);
 std::size_t foreign_term_named(std::string_view name, std::optional<Role> role = {});
 /// True where an id or a part of a spec names a function of a file.
 bool is_foreign(std::string_view name);
-/// Wrong usage where it is foreign: "FILE:F: WHAT".
-void expect_catalogue_term(std::size_t term, std::string_view what);
 
 inline constexpr std::size_t foreign_stride = 16;  ///< as ForeignTerm::channels
 

@@ -147,6 +147,32 @@ void gram(std::size_t n, const F* r, const F* slope, const F* const* j, F* sums)
   products.store_to(sums);
 }
 
+/// The same of more columns than registers hold sums of, a sum at a time: blocks stay in the first cache.
+template <class F>
+void gram_of_many(
+    std::size_t count, std::size_t n, const F* r, const F* slope, const F* const* j, F* sums) {
+  using B = Lane<F>;
+  std::size_t e = 0;
+  for (std::size_t a = 0; a < count; ++a)
+    for (std::size_t b = a; b < count; ++b, ++e) {
+      B sum = load<B>(sums + e * padding);
+      for (std::size_t i = 0; i < n; i += lanes<B>) {
+        const B w = load<B>(slope + i);
+        const B x = a == 0 ? load<B>(r + i) : unmasked<B>(w, load<B>(j[a - 1] + i));
+        const B y = b == 0 ? load<B>(r + i) : unmasked<B>(w, load<B>(j[b - 1] + i));
+        sum = sum + x * y;
+      }
+      store<B>(sums + e * padding, sum);
+    }
+}
+template <class F, std::size_t K>
+void gram_of(std::size_t n, const F* r, const F* slope, const F* const* j, F* sums) {
+  if constexpr (K <= max_columns)
+    gram<F, K>(n, r, slope, j, sums);
+  else
+    gram_of_many(K, n, r, slope, j, sums);
+}
+
 // ---- influences ---------------------------------------------------------------------------------
 
 template <class F, std::size_t K>
@@ -217,7 +243,7 @@ constexpr Kernels<F> table(std::index_sequence<K...>) {
           residual_sums<F>,
           residual<false, F>,
           residual<true, F>,
-          {nullptr, gram<F, K + 1>...},
+          {nullptr, gram_of<F, K + 1>...},
           {leverage<F, K>...},
           {moves<F, K>...}};
 }
@@ -226,8 +252,8 @@ constexpr Kernels<F> table(std::index_sequence<K...>) {
 
 extern const Kernels<float> table_float;
 extern const Kernels<double> table_double;
-constinit const Kernels<float> table_float = table<float>(std::make_index_sequence<max_columns>{});
+constinit const Kernels<float> table_float = table<float>(std::make_index_sequence<most_columns>{});
 constinit const Kernels<double> table_double =
-    table<double>(std::make_index_sequence<max_columns>{});
+    table<double>(std::make_index_sequence<most_columns>{});
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -21,8 +21,10 @@ namespace gonio {
 inline constexpr std::size_t padding = 16;
 /// The largest value that no logarithm tells from 0 [1/sr].
 inline constexpr long double faintest = 1e-30L;
-/// The most columns of one channel's normal equations: the residual and its derivatives.
+/// The most columns of one channel's normal equations, the residual and its derivatives, in one loop: of fused models, and of texels.
 inline constexpr std::size_t max_columns = 10;
+/// The most of them column by column: people's own functions have many parameters.
+inline constexpr std::size_t most_columns = 18;
 /// The most parameters of a term.
 inline constexpr std::size_t max_parameters = 4;
 /// The most channels and terms that fused kernels take.
@@ -235,12 +237,12 @@ struct Kernels {
   /// [r, slope·J]ᵀ[r, slope·J], upper triangle row by row, added lane by lane to
   /// `sums[entry][padding]`, which the caller adds up every few thousand samples; [k]: k columns
   std::array<void (*)(std::size_t n, const F* r, const F* slope, const F* const* j, F* sums),
-             max_columns + 1>
+             most_columns + 1>
       gram;
 
   /// Leverages of values; the scores, and sums of fourth powers, that follow; [k]: k derivatives
   using Influence = void (*)(std::size_t n, const InfluenceArguments<F>&);
-  std::array<Influence, max_columns> leverage, moves;
+  std::array<Influence, most_columns> leverage, moves;
 };
 
 /// Kernels of the best set that this machine and build have, or of the named one.  The environment

@@ -107,8 +107,8 @@ DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
   if (texels_ && texels_->cosine)
     for (std::size_t k = 0; k < 2; ++k)
       r.d.emplace_back(model_.value_count + k, d[t.parameters.size() + k] = fresh());
-  const auto kernel =
-      texels_ ? texels_->derivatives[t.term] : k_.terms[term_of_channel(t.term, c)].derivatives;
+  const std::size_t own = term_of_channel(t.term, c);
+  const auto kernel = texels_ ? texels_->derivatives[own] : k_.terms[own].derivatives;
   into_->push_back(
       [=, p = gathered.p.data()](const Block<F>& b) { kernel(b, p, value, d.data()); });
   return r;

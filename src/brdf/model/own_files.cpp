@@ -1,36 +1,118 @@
 #include "brdf/model/own_files.h"
 
 #include <algorithm>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/file.h"
 #include "brdf/model/spec.h"
 #include "foreign/function.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 namespace gonio {
+namespace {
+
+constexpr std::string_view coat = "coat:";
+
+std::string with_file(const std::string& name, const auto& path_of) {
+  auto n = foreign::parse_name(name);
+  n.file = path_of(n.file);
+  return foreign::text_of(n);
+}
+
+}  // namespace
+
+std::string with_own_names(std::string_view spec,
+                           const std::function<std::string(const std::string& name)>& change,
+                           const std::string& document) {
+  // Most specs name no file, and a preset is no spec.
+  if (spec.find('.') == spec.npos) return std::string(spec);
+  bool any = false;
+  std::string all;
+  const auto last = spec.rfind('+');
+  std::string plain(spec);
+  const bool coated = last != spec.npos && spec.substr(last + 1).starts_with(coat);
+  if (coated) plain.erase(last + 1, coat.size());
+  const auto parts = parse_spec(plain, document);
+  for (const auto& part : parts) {
+    std::vector<std::string> names;
+    for (const auto& name : part) {
+      any |= foreign::is_name(name);
+      names.push_back(foreign::is_name(name) ? change(name) : name);
+    }
+    all += fmt::format("{}{}{}", all.empty() ? "" : "+",
+                       coated && &part == &parts.back() ? coat : std::string_view(),
+                       fmt::join(names, "/"));
+  }
+  return any ? all : std::string(spec);
+}
 
 bool names_own_file(std::string_view spec) {
+  bool any = false;
   try {
-    return std::ranges::any_of(parse_spec(spec), [](const auto& part) {
-      return std::ranges::any_of(part, [](const auto& name) { return foreign::is_name(name); });
+    with_own_names(spec, [&](const std::string& name) {
+      any = true;
+      return name;
     });
   } catch (const Error&) {
-    return false;  // no model: whoever reads it says where that stands
+    // No model: whoever reads it says where that stands.
   }
+  return any;
+}
+
+std::string own_files_beside(const std::string& document, const std::string& spec) {
+  return with_own_names(
+      spec,
+      [&](const std::string& name) {
+        return with_file(name,
+                         [&](const std::string& file) { return path_beside(document, file); });
+      },
+      document);
+}
+
+std::string own_files_as_named(const std::string& document, const std::string& spec) {
+  const auto folder = std::filesystem::path(document).parent_path();
+  if (folder.empty()) return spec;
+  return with_own_names(spec, [&](const std::string& name) {
+    return with_file(name, [&](const std::string& file) {
+      const auto below = std::filesystem::path(file).lexically_relative(folder);
+      return below.empty() ? file : below.string();
+    });
+  });
+}
+
+std::vector<OwnFile> own_files(const std::vector<std::string>& specs, const std::string& document) {
+  std::vector<OwnFile> all;
+  for (const auto& spec : specs) try {
+      with_own_names(
+          spec,
+          [&](const std::string& name) {
+            const auto file = foreign::parse_name(name).file;
+            if (std::ranges::find(all, file, &OwnFile::file) == all.end())
+              all.push_back({file, foreign::sha256_of(
+                                       document.empty() ? file : path_beside(document, file))});
+            return name;
+          },
+          document);
+    } catch (const Error&) {
+      continue;  // as above
+    }
+  return all;
 }
 
 void expect_own_files_below(const std::string& document, std::string_view spec) {
   if (!names_own_file(spec)) return;
-  for (const auto& part : parse_spec(spec))
-    for (const auto& name : part)
-      if (foreign::is_name(name)) {
-        try {
-          path_beside("document", foreign::parse_name(name).file);
-        } catch (const Error&) {
-          throw bad_input(document, "model", name,
-                          "a shader below the folder that gonio runs in, or --follow-paths");
-        }
-      }
+  with_own_names(spec, [&](const std::string& name) {
+    try {
+      path_beside("document", foreign::parse_name(name).file);
+    } catch (const Error&) {
+      throw bad_input(document, "model", name,
+                      "a shader below the folder that gonio runs in, or --follow-paths");
+    }
+    return name;
+  });
 }
 
 }  // namespace gonio

@@ -1,6 +1,7 @@
 #include "brdf/model/spec.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "base/error.h"
 #include "base/numbers.h"
@@ -31,7 +32,8 @@ std::vector<std::string> split_outside_braces(std::string_view text, char at) {
 }
 
 /// Names between slashes; the path of a person's file is one of them, from where there is such a file.
-std::vector<std::string> names_of_part(std::string_view part) {
+std::vector<std::string> names_of_part(std::string_view part, const std::string& document) {
+  const auto folder = std::filesystem::path(document).parent_path();
   const auto raw = split_outside_braces(part, '/');
   std::vector<std::string> names;
   std::size_t first = 0;  // of the pieces that no name has
@@ -42,7 +44,7 @@ std::vector<std::string> names_of_part(std::string_view part) {
       const auto path =
           fmt::format("{}", fmt::join(raw.begin() + static_cast<std::ptrdiff_t>(s),
                                       raw.begin() + static_cast<std::ptrdiff_t>(e) + 1, "/"));
-      if (foreign::is_there(path)) {
+      if (foreign::is_there((folder / path).string())) {
         from = s;
         break;
       }
@@ -60,7 +62,8 @@ std::vector<std::string> names_of_part(std::string_view part) {
 
 }  // namespace
 
-std::vector<std::vector<std::string>> parse_spec(std::string_view spec) {
+std::vector<std::vector<std::string>> parse_spec(std::string_view spec,
+                                                 const std::string& document) {
   const auto written = split_outside_braces(spec, '+');
   if (written.size() > most_parts)
     throw wrong_usage(
@@ -69,7 +72,7 @@ std::vector<std::vector<std::string>> parse_spec(std::string_view spec) {
   std::vector<std::vector<std::string>> parts;
   bool lobe_seen = false;
   for (const auto& part : written) {
-    auto names = names_of_part(part);
+    auto names = names_of_part(part, document);
     if (names.size() != 1 && names.size() != 3)
       throw wrong_usage(fmt::format(
           "model '{}': '{}' is neither a diffuse term nor NDF/MASKING/FRESNEL", spec, part));

@@ -13,7 +13,9 @@
 namespace gonio {
 
 /// The parts of a spec as written: one name for a diffuse term, three for a lobe.  More than 17 of them are wrong usage.
-std::vector<std::vector<std::string>> parse_spec(std::string_view spec);
+/// \param document  file that the spec stands in: paths of people's own files are looked for beside it; "": in the working folder
+std::vector<std::vector<std::string>> parse_spec(std::string_view spec,
+                                                 const std::string& document = {});
 
 struct Setting {
   std::string name;

@@ -70,6 +70,11 @@ class Files {
     file.expect_unchanged();
     return map;
   }
+  /// Counts the files that a model takes functions from among those that the scene names.
+  void add_own(const std::string& spec) {
+    for (auto& f : own_files({spec})) digests_.push_back(std::move(f.sha256));
+  }
+  const std::string& scene() const { return scene_; }
   /// Digest of the list of all files' digests.
   std::string digest() const {
     auto all = digests_;
@@ -107,17 +112,15 @@ std::pair<std::string, bool> without_coat(const std::string& spec) {
   return {spec.substr(0, last + 1) + spec.substr(last + 1 + coat.size()), true};
 }
 
-/// \param at  the material
-BoundModel model_of(const FromSpec& from, const JsonReader& at) {
+/// \param scene  its path   \param at  the material
+BoundModel model_of(const FromSpec& from, const std::string& scene, const JsonReader& at) {
   std::vector<Setting> settings;
   if (!from.parameters.empty()) settings = settings_of(from.parameters, at.at("parameters"));
   const auto bound = [&](const char* key, const char* expected, std::vector<Setting> with) {
     try {
-      if (names_own_file(without_coat(from.model).first))
-        throw wrong_usage("scenes take the catalogue's own terms, not a shader's function");
-      auto model = bind_model(without_coat(from.model).first, std::move(with), kChannels);
-      if (without_coat(from.model).second && model.model.lobes.empty())
-        throw wrong_usage("a coat is a lobe");
+      const auto [spec, coated] = without_coat(own_files_beside(scene, from.model));
+      auto model = bind_model(spec, std::move(with), kChannels);
+      if (coated && model.model.lobes.empty()) throw wrong_usage("a coat is a lobe");
       return model;
     } catch (const Error& e) {  // the words are the file's, not the user's
       at.at(key).fail(fmt::format("{} ({})", expected, e.what()));
@@ -130,11 +133,14 @@ BoundModel model_of(const FromSpec& from, const JsonReader& at) {
 std::variant<BoundModel, GltfMaterial> resolved(const Material& m,
                                                 const JsonReader& at,
                                                 Files& files) {
-  if (const auto* spec = std::get_if<FromSpec>(&m.from)) return model_of(*spec, at);
+  if (const auto* spec = std::get_if<FromSpec>(&m.from)) {
+    auto model = model_of(*spec, files.scene(), at);
+    files.add_own(model.model.spec);
+    return model;
+  }
   if (const auto* fit = std::get_if<FromFit>(&m.from)) {
-    const BoundModel model = files.fit(fit->path);
-    if (names_own_file(model.model.spec))
-      at.fail("the catalogue's own terms, not a shader's function");
+    auto model = files.fit(fit->path);
+    files.add_own(model.model.spec);
     return model;
   }
   const auto& gltf = std::get<FromGltf>(m.from);

@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "base/json/describe.h"
+#include "brdf/model/own_files.h"
 #include "scene/description/scene_keys.h"
 
 #include <fmt/format.h>
@@ -155,7 +156,8 @@ inline constexpr auto description<scene::Plan> = std::tuple{
           not_empty},
     Field{"tolerance", &scene::Plan::tolerance, "that the plan was made for", or_default},
     Field{"materials", by_name(&scene::Plan::materials), "by name", Entries{0, 10'000}},
-    Field{"budget", if_there(&scene::Plan::budget), "where the scene has one"}};
+    Field{"budget", if_there(&scene::Plan::budget), "where the scene has one"},
+    Field{own_files_key, if_there(&scene::Plan::shaders), own_files_meaning}};
 
 }  // namespace gonio
 
@@ -164,7 +166,11 @@ namespace gonio::scene {
 namespace {
 
 /// Forms of a material's effects, each offered.
-Forms forms_in(const MaterialPlan& m, const Look& look, const JsonReader& at) {
+/// \param scene  its path
+Forms forms_in(const MaterialPlan& m,
+               const Look& look,
+               const std::string& scene,
+               const JsonReader& at) {
   Forms forms = look.exact();
   std::array<bool, effect_count> told{};
   for (std::size_t i = 0; i < m.effects.size(); ++i) {
@@ -189,8 +195,8 @@ Forms forms_in(const MaterialPlan& m, const Look& look, const JsonReader& at) {
         at.at("effects").fail(fmt::format("{} '{}', which is all that the other forms leave of it",
                                           name_of(e), plain.name(e)));
   const Surface surface = look.surface(forms);
-  if (surface.spec() != m.spec)
-    at.at("spec").fail(fmt::format("'{}', which its forms make", surface.spec()));
+  if (const auto spec = own_files_as_named(scene, surface.spec()); spec != m.spec)
+    at.at("spec").fail(fmt::format("'{}', which its forms make", spec));
   // Who edits forms by hand need not know the parameters that others have, but these are the
   // material's.
   const auto parameters = surface.parameters();
@@ -243,7 +249,7 @@ PlannedForms read_plan(const std::string& path, const Scene& s, const std::vecto
     const auto at = root.at("materials").at(material.name);
     if (found == s.materials.end()) at.fail("a material of the scene");
     const auto index = static_cast<std::size_t>(found - s.materials.begin());
-    planned.by_material[index] = forms_in(material, looks[index], at);
+    planned.by_material[index] = forms_in(material, looks[index], s.path, at);
   }
   for (const auto& object : s.objects)
     if (!planned.by_material[object.material])
@@ -266,7 +272,7 @@ PlannedMaterial read_planned_material(const std::string& path, const std::string
   for (auto& m : file.materials) {
     known.push_back(m.name);
     if (m.name != name) continue;
-    PlannedMaterial planned{std::move(m.spec), std::move(m.parameters), {}};
+    PlannedMaterial planned{own_files_beside(path, m.spec), std::move(m.parameters), {}};
     for (auto& e : m.effects) planned.forms.emplace_back(e.effect, std::move(e.form));
     return planned;
   }

@@ -452,6 +452,12 @@ Plan plan_scene(const Scene& s, const PlanOptions& asked, const std::function<vo
     if (!m.bounded) claim_no_bound(m);
   name_all(plan, lit);
   plan.holds = std::ranges::all_of(plan.materials, &MaterialPlan::holds);
+  std::vector<std::string> specs;
+  for (auto& m : plan.materials) {
+    m.spec = own_files_as_named(s.path, m.spec);
+    specs.push_back(m.spec);
+  }
+  plan.shaders = own_files(specs, s.path);
   return plan;
 }
 

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "base/names.h"
+#include "brdf/model/own_files.h"
 #include "scene/description/scene.h"
 #include "scene/plan/difference.h"
 #include "scene/surface/surface.h"
@@ -86,7 +87,8 @@ struct Plan {
   Tolerance tolerance;
   std::vector<MaterialPlan> materials;
   std::optional<Budget> budget;
-  bool holds = false;  ///< of every material
+  bool holds = false;                 ///< of every material
+  std::vector<OwnFile> shaders = {};  ///< files that the materials take functions from
 };
 
 /// Cost by which sets are compared: time as it was measured, or operations, which are the same everywhere.

@@ -6,6 +6,7 @@
 #include <mutex>
 #include <numeric>
 
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/formula/scattering.h"
 #include "brdf/formula/widths.h"
@@ -234,11 +235,17 @@ void Look::read(const BoundModel& b, bool coated) {
     diffuse_.coupled = catalogue()[term.term].coupled;
     if (diffuse_.coupled) kind.remove_suffix(std::string_view(".coupled").size());
     diffuse_.kind = kind;
+    diffuse_.own = foreign_term(term.term) != nullptr;
     const auto given = settings_of(b, {&term});
-    diffuse_.kd = std::ranges::find(given, "kd", &Setting::name)->values;
+    if (!diffuse_.own) diffuse_.kd = std::ranges::find(given, "kd", &Setting::name)->values;
     diffuse_.alpha = number_of(given, "alpha", 1);
+    // A file's function may call anything alpha; one number of that name is the lobe's, too.
     for (const auto& s : given)
-      if (s.name != "kd" && s.name != "alpha") diffuse_.others.push_back(s);
+      if (s.name == "kd" ? diffuse_.own : s.name != "alpha" || s.values.size() > 1)
+        diffuse_.others.push_back(s);
+    if (diffuse_.own)
+      diffuse_.width = std::clamp(
+          number_of(given, "alpha", std::pow(number_of(given, "roughness", 0.5), 2)), 0.01, 1.0);
   }
   if (lobes.empty()) return;
   const Lobe& first = lobes[0];
@@ -321,8 +328,9 @@ void Look::offer_forms() {
     o.same_as_exact = same ? o.forms.front() : o.forms.back();
     o.why = same || o.forms.size() == 1 ? std::move(why) : "";
   };
-  const bool dark = all_zero(diffuse_.kd);
-  if (diffuse_.kind == "none") diffuse_ = {"disney", first_.any, {0, 0, 0}, 1, {}};
+  const bool dark = !diffuse_.own && all_zero(diffuse_.kd);
+  if (diffuse_.kind == "none")
+    diffuse_ = {.kind = "disney", .coupled = first_.any, .kd = {0, 0, 0}};
   if (diffuse_.kind == "lambert" || diffuse_.kind == "disney") {
     std::vector<std::string_view> kinds{"none", "lambert"};
     if (diffuse_.kind == "disney") kinds.emplace_back("disney");
@@ -330,7 +338,9 @@ void Look::offer_forms() {
     offer(Effect::diffuse, kinds, dark,
           first_.any ? "its diffuse albedo is 0" : "it is all there is");
   } else {
-    offer(Effect::diffuse, {"disney"}, false, "its diffuse term is of another kind");
+    offer(
+        Effect::diffuse, {"disney"}, false,
+        diffuse_.own ? "a function of a file has one form" : "its diffuse term is of another kind");
   }
   if (diffuse_.coupled)
     offer(Effect::coupling, {"off", "on"}, dark, "its diffuse albedo is 0");
@@ -374,7 +384,8 @@ void Look::offer_forms() {
   // Two sums stand for one lobe of GGX's kind, and for what is diffuse.
   if (!sky_)
     offer(Effect::environment, {"split_sum"}, false, "no environment lights it");
-  else if ((first_.any && (!first_.known || !others_.empty())) || !coat_.lobe.starts_with("ggx"))
+  else if (diffuse_.own || (first_.any && (!first_.known || !others_.empty())) ||
+           !coat_.lobe.starts_with("ggx"))
     offer(Effect::environment, {"quadrature"}, false, "two sums do not stand for its lobes");
   else
     offer(Effect::environment, {"split_sum", "quadrature"});
@@ -423,7 +434,7 @@ Surface Look::surface(const Forms& forms) const {
   if (diffuse != "none") {
     spec = diffuse_.kind == "lambert" || diffuse == "lambert" ? "lambert" : diffuse_.kind;
     if (forms.name(Effect::coupling) == "on") spec += ".coupled";
-    settings.push_back({"kd", diffuse_.kd});
+    if (!diffuse_.own) settings.push_back({"kd", diffuse_.kd});
     settings.insert(settings.end(), diffuse_.others.begin(), diffuse_.others.end());
   }
   if (first_.any) {
@@ -560,6 +571,7 @@ std::vector<Look> looks_of(const Scene& s) {
 std::vector<double> Look::widths() const {
   std::vector<double> all;
   if (first_.any) all.push_back(std::max(first_.alpha_x, first_.alpha_y));
+  if (diffuse_.own) all.push_back(diffuse_.width);
   if (!coat_.absent) all.push_back(coat_.width);
   return all;
 }

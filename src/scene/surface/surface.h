@@ -107,7 +107,9 @@ class Look {
     bool coupled = false;
     std::vector<double> kd{0, 0, 0};
     double alpha = 1;
-    Settings others;  ///< further parameters of a term that no form stands for
+    Settings others{};   ///< further parameters of a term that no form stands for
+    bool own = false;    ///< a function of a person's file, which may be a whole model
+    double width = 1.0;  ///< of such a function's highlight, guessed from its alpha or roughness
   } diffuse_;
   /// First lobe.
   struct First {

@@ -190,7 +190,7 @@ TYPED_TEST(ColumnKernels, MaskedSamplesAreZeroWhateverStandsThere) {
 TYPED_TEST(ColumnKernels, GramIsTheNaiveSumOfProducts) {
   using F = TypeParam;
   for (const auto& set : instruction_sets())
-    for (std::size_t columns = 1; columns <= max_columns; ++columns) {
+    for (std::size_t columns = 1; columns <= most_columns; ++columns) {
       auto r = this->random_column(), slope = this->random_column();
       std::vector<Column<F>> jacobian;
       std::vector<const F*> j;
@@ -228,7 +228,7 @@ TYPED_TEST(ColumnKernels, GramIsTheNaiveSumOfProducts) {
 TYPED_TEST(ColumnKernels, InfluenceIsThatOfEachOfTheSamplesThatAValueCountsAs) {
   using F = TypeParam;
   for (const auto& set : instruction_sets())
-    for (std::size_t k = 1; k < max_columns; ++k) {
+    for (std::size_t k = 1; k < most_columns; ++k) {
       const std::size_t rows = k + 2;
       auto score = this->random_column(), slope = this->random_column();
       const auto per_root = this->random_column(F(0.3), 1);
