@@ -142,7 +142,9 @@ FunctionAudit audit_function(FileFunction f) {
   if (role == Role::diffuse) laws_of_lobe(a, token, parameters, settings);
   a.half = in_half(term, {});
   if (role != Role::diffuse || !f.function->reads_frame) {
+    constexpr double far_off = 1;  // no form resembles it
     a.nearest = nearest_form(term);
+    if (a.nearest && a.nearest->difference > far_off) a.nearest.reset();
     if (a.nearest) a.slips = likely_slips(term, *a.nearest);
   }
   for (const auto& p : f.function->parameters)

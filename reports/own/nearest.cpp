@@ -161,8 +161,10 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       if (power != 1 && !pairing.width) continue;
       const auto n = compared(term, form, pairing, power);
       if (!std::isfinite(n.difference)) continue;
-      // Forms may differ by rounding only: the first is taken, and the plainest map.
-      if (!best || n.difference < std::min(0.5 * best->difference, best->difference - 1e-9))
+      // Forms may differ by rounding only, near a narrow peak by 1e-5: the first is taken, and the
+      // plainest map.
+      constexpr double by_rounding = 1e-5;
+      if (!best || n.difference < std::min(0.5 * best->difference, best->difference - by_rounding))
         best = n;
     }
   }

@@ -64,6 +64,23 @@ TEST(AuditFile, ASquareTooManyOrTooFewIsFound) {
             std::string::npos);
 }
 
+TEST(AuditFile, TheFormIsNamedWhateverRoundingsAtANarrowPeak) {
+  SKIP_WITHOUT_SHADERS;
+  const auto a = audited(
+      ggx("float a2 = pow(roughness * roughness, 4.0);", whole, "roughness"));  // alpha from 6e-6
+  EXPECT_EQ(nearest(a), "ndf.ggx");
+  EXPECT_NE(slips(a).find("alpha is roughness⁴ here"), std::string::npos) << slips(a);
+}
+
+TEST(AuditFile, AModelThatIsLikeNoneIsComparedWithNone) {
+  SKIP_WITHOUT_SHADERS;
+  const auto a = audited(
+      "// alpha 0.01 1 0.3\nfloat f(float NoL, float NoV, float NoH, float alpha) {\n  float a2 = "
+      "alpha * alpha, d = NoH * NoH * (a2 - 1.0) + 1.0;\n  return a2 / (3.14159265 * d * d) / "
+      "(4.0 * NoL * NoV);\n}\n");
+  EXPECT_FALSE(a.nearest) << text_of(a);
+}
+
 TEST(AuditFile, AMissingPiIsFound) {
   SKIP_WITHOUT_SHADERS;
   const auto a = audited(ggx("float a2 = alpha * alpha;", "a2 / (d * d)", "alpha"));

@@ -3,8 +3,10 @@
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <thread>
 
 #include "brdf/catalogue/foreign_terms.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/one_term.h"
 #include "brdf/model/derivatives.h"
 #include "brdf/model/evaluate.h"
@@ -188,6 +190,18 @@ TEST(OwnModel, IsLookedAtInHalfAndInFiftyDigits) {
   EXPECT_FALSE(a.holds);
   ASSERT_TRUE(a.safe_from && a.safe_from->value);
   EXPECT_NEAR(*a.safe_from->value, 0.0156, 0.002);
+}
+
+TEST(OwnModel, OperationsAreTheSameWheneverTheyAreCounted) {
+  SKIP_WITHOUT_SHADERS;
+  const auto m = compose(file() + ":brdf", 3);
+  std::size_t first = 0, second = 0;
+  std::thread([&] {  // where nothing has run yet
+    first = operations_of(m).total();
+    second = operations_of(m).total();
+  })
+      .join();
+  EXPECT_EQ(first, second);
 }
 
 TEST(OwnModel, AWholeModelIsNoDistribution) {
