@@ -4,13 +4,16 @@
 #include <algorithm>
 
 #include "answer/albedo.h"
+#include "answer/file_functions.h"
 #include "answer/model_argument.h"
 #include "answer/term.h"
 #include "answer/values.h"
 #include "base/error.h"
 #include "data_synth/synth.h"
+#include "foreign/function.h"
 #include "module.h"
 #include "reports/audit/audit.h"
+#include "reports/own/audit_file.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -163,8 +166,28 @@ void bind_models(nb::module_& m) {
   bind_options<SynthOptions>(m, "SynthOptions");
   m.def("synth", &synth, "model"_a, "layout"_a, "options"_a, "jobs"_a, others_run);
   m.def("audit", &audit_of, "ids"_a, "jobs"_a, others_run);
+  m.def("provide", &foreign::provide, "file"_a, "text"_a, others_run);
   m.def(
-      "models", [](const std::string& word) { return to_json(entries_with(word)); }, "word"_a);
+      "own_name",
+      [](const std::string& name) {
+        return foreign::text_of(foreign::read_function(foreign::parse_name(name)).name);
+      },
+      "name"_a, others_run);
+  m.def(
+      "is_own", [](const std::string& name) { return foreign::is_name(name); }, "name"_a);
+  m.def(
+      "audit_file",
+      [](const std::string& name, int jobs) {
+        const Jobs threads(jobs);
+        return to_json(audit_file(name));
+      },
+      "name"_a, "jobs"_a, others_run);
+  m.def(
+      "models",
+      [](const std::string& word) {
+        return foreign::is_name(word) ? to_json(file_functions(word)) : to_json(entries_with(word));
+      },
+      "word"_a);
 }
 
 }  // namespace gonio::python

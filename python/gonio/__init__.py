@@ -13,6 +13,7 @@ that is not what it should be.  Both are ``gonio.Error`` and ``ValueError``.  Th
 from __future__ import annotations
 
 import functools as _functools
+import hashlib as _hashlib
 import inspect as _inspect
 import json as _json
 import os as _os
@@ -27,11 +28,13 @@ from ._commands import columns, compare, convert, explore, export, fit_map, plan
 from ._document import Document, Path
 from ._fit import Fit, Parameter, Parameters
 from ._gonio import BadInput, Error, WrongUsage, __version__
+from ._own import OwnModel
+from ._own import shader_of as _shader_of
 
 __all__ = [
-    "BadInput", "Document", "Error", "Fit", "Parameter", "Parameters", "Table", "WrongUsage", "__version__", "albedo", "audit", "columns",
-    "compare", "convert", "eval", "evaluate", "explore", "export", "fit", "fit_map", "inspect", "models", "plan", "read", "render",
-    "report", "synth", "term", "validate",
+    "BadInput", "Document", "Error", "Fit", "OwnModel", "Parameter", "Parameters", "Table", "WrongUsage", "__version__", "albedo", "audit",
+    "columns", "compare", "convert", "eval", "evaluate", "explore", "export", "fit", "fit_map", "inspect", "model", "models", "plan", "read",
+    "render", "report", "synth", "term", "validate",
 ]
 
 Values = Union[float, Sequence[float], _npt.NDArray[Any], str]
@@ -164,7 +167,62 @@ class Table:
 
 
 Model = Union[str, Mapping[str, Any]]
-"""A spec or a preset as ``models`` lists them; the path of a fit.json; or a fit's document."""
+"""A spec or a preset as ``models`` lists them; the path of a fit.json; a fit's document; or a shader: ``FILE[:FUNCTION]``, or what ``model`` gives."""
+
+
+_languages = ("glsl", "hlsl", "brdf", "frag")
+
+
+def model(source: str | Callable[..., Any], function: str = "", *, language: str = "glsl", bounds: Mapping[str, Sequence[float]] | None = None,
+          colours: str | Iterable[str] = (), includes: str = "", arguments: Mapping[str, str] | None = None) -> OwnModel:
+    """A shader's text, or a Python function over NumPy arrays, as a model that stands wherever a spec stands::
+
+        mine = gonio.model(text, "D_GGX")
+        gonio.audit(mine)
+        gonio.fit(table, f"{mine}/smith_ggx.correlated/schlick")
+
+        def glossy(NoH, NoL, NoV, alpha, kd):
+            a2 = alpha**2
+            return kd / np.pi + a2 / (np.pi * (NoH**2 * (a2 - 1) + 1)**2) / 4
+        gonio.fit(table, gonio.model(glossy, bounds={"alpha": (0.01, 1), "kd": (0, 1)}, colours="kd"))
+
+    A Python function is called once, with symbols that write down what is done to them; from then on the formula runs as a shader does, with
+    exact derivatives, in every number.  It may use NumPy's arithmetic, comparisons, ``where``, ``clip`` and the usual functions.
+
+    Args:
+        source: the text, or the function.  Arguments are cosines and directions by their usual names (``docs/task/own_model.md``), all
+            others parameters; a Python function takes cosines.
+        function: the one that is meant, of a text with several.
+        language: "glsl", "hlsl", or "brdf" of Disney's BRDF Explorer.
+        bounds: of parameters that the text does not give any: ``{"alpha": (0.01, 1)}``, with a default ``(0.01, 1, 0.2)``; one number fixes it.
+        colours: parameters of a Python function that have one value a channel.
+        includes: what the value has beside f, where gonio's guess is wrong: "nothing", "cosine", "pi", "cosine,pi"; of masking "g" or "v".
+        arguments: what arguments stand for, where their names do not say it: ``{"x": "noh"}``, ``{"n": "parameter"}``.
+
+    Raises:
+        BadInput: a text that does not compile, with its line, or that cannot be run.
+        WrongUsage: a function that cannot be written down.
+    """
+    bounds = dict(_by_name("bounds", bounds, '{"alpha": (0.01, 1)}'))
+    if callable(source):
+        if language != "glsl" or function:
+            raise WrongUsage("language and function go with a shader's text, not with a Python function")
+        text, function = _shader_of(source, {n: b for n, b in bounds.items() if _np.ndim(b) > 0}, _words(colours) if colours else ())
+        bounds = {n: b for n, b in bounds.items() if _np.ndim(b) == 0}
+    else:
+        text = source
+        if colours:
+            raise WrongUsage("colours go with a Python function: a shader's text says vec3")
+        if language not in _languages:
+            raise WrongUsage(f"language: found {language}, expected one of {', '.join(_languages)}")
+    file = f"own_{_hashlib.sha256(text.encode()).hexdigest()[:12]}.{language}"
+    _gonio.provide(file, text)
+    words = [f"argument.{x}={y}" for x, y in _by_name("arguments", arguments, '{"x": "noh"}').items()]
+    words += [f"includes={includes}"] if includes else []
+    words += [f"{n}={','.join(repr(float(x)) for x in _np.atleast_1d(b))}" for n, b in bounds.items()]
+    made = OwnModel(_gonio.own_name(f"{file}{':' + function if function else ''}{'{' + ';'.join(words) + '}' if words else ''}"))
+    made.text = text
+    return made
 
 
 def _numbers(name: str, x: _npt.ArrayLike) -> _npt.NDArray[_np.float64]:
@@ -427,19 +485,23 @@ def audit(ids: str | Iterable[str] = (), *, jobs: int = 0) -> Document:
     """What entries of the catalogue keep and break of what a BRDF must keep: the document of ``gonio audit --json``.
 
     Args:
-        ids: terms, maps or models as ``models`` lists them; none for all, which takes a minute.
+        ids: terms, maps or models as ``models`` lists them, or one shader; none for all, which takes a minute.
 
     Raises:
         WrongUsage: an id that is none; the line names the nearest.
     """
-    return Document(_gonio.audit([ids] if isinstance(ids, str) else list(ids), jobs))
+    named = [ids] if isinstance(ids, str) else list(ids)
+    own = [i for i in named if _gonio.is_own(i)]
+    if own and len(named) > 1:
+        raise WrongUsage("ids: found a shader among several, expected it by itself")
+    return Document(_gonio.audit_file(own[0], jobs) if own else _gonio.audit(named, jobs))
 
 
 def models(word: str = "") -> Document:
     """Terms that models are made of, maps, whole models and metals: the document of ``gonio models --json``.
 
     Args:
-        word: only those that hold it in their id, title or source, or have a parameter of that name.
+        word: only those that hold it in their id, title or source, or have a parameter of that name; a shader has its functions listed.
 
     Raises:
         WrongUsage: a word that none holds.

@@ -12,6 +12,7 @@ from typing import Any, Literal
 
 from ._document import Document, Path
 from ._gonio import BadInput, Error, WrongUsage
+from ._own import OwnModel
 from ._program import PROGRAM
 
 Target = Literal["gltf", "mitsuba", "standard_surface", "open_pbr", "usd_preview"]
@@ -41,7 +42,13 @@ def _run(command: str, words: list[Path], options: dict[str, Any]) -> str:
 
 @_contextmanager
 def _as_file(thing: Any, ending: str) -> Iterator[Path]:
-    """The path of a table or a document, written where it has none."""
+    """The path of a table, of a document or of a model of one's own, written where it has none."""
+    if isinstance(thing, OwnModel):
+        with _tempfile.TemporaryDirectory(prefix="gonio-") as folder:
+            with open(_os.path.join(folder, thing.split(":")[0]), "w", encoding="utf-8") as file:
+                file.write(thing.text)
+            yield _os.path.join(folder, thing)
+        return
     if isinstance(thing, (str, _os.PathLike)):
         yield thing
         return
