@@ -5,6 +5,7 @@
 #include <limits>
 #include <optional>
 
+#include "base/quantile.h"
 #include "reports/cross_fit/cases.h"
 #include "reports/finding/names.h"
 #include "reports/finding/words.h"
@@ -234,9 +235,8 @@ void other_gammas(Findings& to, const CrossFitRows& r) {
                          span(s, signed_number)));
 }
 
-double median(std::vector<double> all) {
-  std::ranges::sort(all);
-  return all[all.size() / 2];
+double middle_of(std::vector<double> all) {
+  return median(all);
 }
 std::vector<double> each(const CrossFitRows& r, double PublishedFit::*of) {
   std::vector<double> out;
@@ -250,8 +250,8 @@ void published(Findings& to, const CrossFitRows& r) {
   const auto tails = each(r, &PublishedFit::tail);
   const auto longer =
       static_cast<std::size_t>(std::ranges::count_if(tails, [](double c) { return c < 2; }));
-  const double ggx = median(each(r, &PublishedFit::ggx_log_rms)),
-               gtr = median(each(r, &PublishedFit::gtr_log_rms));
+  const double ggx = middle_of(each(r, &PublishedFit::ggx_log_rms)),
+               gtr = middle_of(each(r, &PublishedFit::gtr_log_rms));
   to.judge("for many materials even GGX's tail is not long enough", "",
            verdict(2 * longer > tails.size(), longer > 0),
            fmt::format("{} measured materials", of_all(longer, tails.size())),
@@ -259,15 +259,16 @@ void published(Findings& to, const CrossFitRows& r) {
                        "published the fits that say so.",
                        of_all(longer, tails.size())));
   to.say(fmt::format("Fitted to those, GTR finds a median gamma of {:.2g}, where GGX has 2.",
-                     median(each(r, &PublishedFit::gamma))));
+                     middle_of(each(r, &PublishedFit::gamma))));
   to.say(
       fmt::format("A free gamma takes the median log-RMS residual of these materials from {:.2g} "
                   "to {:.2g}.",
                   ggx, gtr));
-  to.say(fmt::format(
-      "GGX's roughness of them is {:.2g} on the median, where Beckmann's was "
-      "published as {:.2g}.",
-      median(each(r, &PublishedFit::ggx_roughness)), median(each(r, &PublishedFit::beckmann))));
+  to.say(
+      fmt::format("GGX's roughness of them is {:.2g} on the median, where Beckmann's was "
+                  "published as {:.2g}.",
+                  middle_of(each(r, &PublishedFit::ggx_roughness)),
+                  middle_of(each(r, &PublishedFit::beckmann))));
 }
 
 /// Fits of what was made from the same forms, which ought to give everything back.

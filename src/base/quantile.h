@@ -14,8 +14,12 @@ inline double quantile(std::vector<double>& values, double q) {
   std::nth_element(values.begin(), values.begin() + k, values.end());
   return values[static_cast<std::size_t>(k)];
 }
+/// The value in the middle, of an even number the mean of the two there; reorders them.  \param values  not empty, no NaN
 inline double median(std::vector<double>& values) {
-  return quantile(values, 0.5);
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  if (values.size() % 2 == 1) return *middle;
+  return (*std::max_element(values.begin(), middle) + *middle) / 2;
 }
 
 }  // namespace gonio

@@ -165,9 +165,9 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   EXPECT_EQ(
       row.error,
       fmt::format("typical factor of f ×/÷ {:.3g}: 17 of 20 measured materials have a longer tail",
-                  std::exp(0.4)));
+                  std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(row.unless, fmt::format("γ is fitted (median 1.4): GTR, ×/÷ {:.3g}, +0.10 ns for D",
-                                    std::exp(0.15)));
+                                    std::exp(0.1475)));
   EXPECT_FALSE(facts(CrossFitRows{}).tails);
 }
 
