@@ -9,6 +9,7 @@
 
 #include <spirv-tools/libspirv.hpp>
 
+#ifdef GONIO_FUZZ_spirv
 namespace {
 
 void run(std::vector<std::uint32_t> words) {
@@ -40,9 +41,11 @@ void run(std::vector<std::uint32_t> words) {
 }
 
 }  // namespace
+#endif
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
 #ifdef GONIO_FUZZ_spirv
+  if (size < 4) return 0;
   std::vector<std::uint32_t> words(size / 4);
   std::memcpy(words.data(), data, words.size() * 4);
   run(std::move(words));
