@@ -55,6 +55,7 @@ std::string map_export_schema() {
 namespace {
 
 constexpr std::size_t rows_at_once = 16, judged = 32;
+constexpr std::size_t most_texels = std::size_t{1} << 24;
 constexpr double largest_ior = 10;
 
 /// What a texel is in glTF's words.
@@ -276,6 +277,11 @@ bool is_map(const std::string& path) {
 MapExport export_map(const std::string& path, std::string& file) {
   if (!is_map(path)) throw bad_input(path, "header", "no gonio:schema", "a map of gonio fit_map");
   const Image header = read_exr_header(path);
+  if (header.width * header.height > most_texels)
+    throw bad_input(path, "size", fmt::format("{} × {}", header.width, header.height),
+                    fmt::format("at most {} texels: viewers take no larger textures, and all of "
+                                "them are in memory",
+                                most_texels));
   MapExport e;
   e.map = path;
   e.model = header.attributes.at("gonio:model");

@@ -24,7 +24,7 @@ struct MapExport {
 };
 
 /// \param file  becomes the bytes of a .gltf with its textures and a plane inside
-/// \throws Error  bad_input of what is no map of gonio's
+/// \throws Error  bad_input of what is no map of gonio's, or has more than 2²⁴ texels
 MapExport export_map(const std::string& map, std::string& file);
 /// Whether a file is a map of gonio's, by its header.
 bool is_map(const std::string& path);

@@ -7,6 +7,7 @@
 #include "cli/outside.h"
 #include "cli/program.h"
 #include "image/display.h"
+#include "image/exr.h"
 #include "png_pixels.h"
 
 namespace gonio::test {
@@ -136,6 +137,19 @@ TEST(ExportCommand, WritesAMapAsTexturesThatShowItsFits) {
   expect_one_line(gonio(f, "export maps.exr --to mitsuba -o m.xml"), 2, "gltf");
   expect_one_line(gonio(f, "export s/image_000.exr --to gltf -o m2.gltf"), 3, "image_000.exr");
   EXPECT_FALSE(std::filesystem::exists(f / "m2.gltf"));
+}
+
+TEST(ExportCommand, RefusesAMapTooLargeForTexturesBeforeItIsRead) {
+  const Folder f;
+  Image map;  // that its bytes pack to nothing costs nobody gigabytes
+  map.width = 8192;
+  map.height = 4096;
+  map.channels = {"alpha"};
+  map.planes.emplace_back(map.width * map.height, 0.5F);
+  map.attributes = {
+      {"gonio:schema", "gonio.map/1"}, {"gonio:model", "lambert"}, {"gonio:channels", "Y"}};
+  write_exr(f / "large.exr", map);
+  expect_one_line(gonio(f, "export large.exr --to gltf -o m.gltf"), 3, "8192 × 4096");
 }
 
 TEST(ExportCommand, WritesAMetalsMapAsMetal) {
