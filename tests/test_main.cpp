@@ -1,10 +1,10 @@
-#include "support.h"
-
-#include <gtest/gtest.h>
-
 #include <cstdio>
 #include <string>
 #include <string_view>
+
+#include "support.h"
+
+#include <gtest/gtest.h>
 
 namespace gonio::test {
 
@@ -34,7 +34,8 @@ std::string tests_of(std::string_view file) {
 
 }  // namespace
 
-// As every program of GoogleTest; `--file=FOLDER/NAME_test.cpp` runs the tests of that file in one process, which computes once what they share.
+// As every program of GoogleTest; `--file=FOLDER/NAME_test.cpp` runs the tests of that file in one
+// process, which computes once what they share.
 int main(int argc, char** argv) {
   testing::InitGoogleTest(&argc, argv);
   constexpr std::string_view option = "--file=";
