@@ -27,7 +27,7 @@ int fail(gonio::Exit code, const char* what) {
   return finish(code);
 }
 
-/// Standard output took no more. A reader that has seen enough, as head, is told nothing.
+/// Standard output took no more. Whoever closed it has seen enough, as head: no message.
 int fail_printing(int error) {
   if (error == EPIPE) return finish(gonio::Exit::bad_input);
   return fail(gonio::Exit::bad_input,

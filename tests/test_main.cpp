@@ -16,7 +16,7 @@ std::string project_folder() {
 
 namespace {
 
-// The filter that takes the tests of a file alone, by the end of its path.
+// The filter that takes only the tests of a file, by the end of its path.
 std::string tests_of(std::string_view file) {
   std::string filter;
   const auto& all = *testing::UnitTest::GetInstance();

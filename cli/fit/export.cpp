@@ -70,7 +70,8 @@ Exit run_map(const ExportCall& o) {
   }
   say("textures  {} × {}, {} texels metal{}\n", e.width, e.height, e.metals,
       e.unknown ? fmt::format(", {} unknown", e.unknown) : "");
-  say("residual  {:.3g} % off (RMS) in the middle of the texels, {:.3g} % in one of 20\n",
+  say("residual  {:.3g} % (RMS of the median texel); one texel in 20 is off by more than {:.3g} "
+      "%\n",
       100 * e.median_residual, 100 * e.high_residual);
   for (const auto& l : e.lost) say_below("lost      ", l);
   return Exit::done;

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <optional>
 #include <system_error>
 
 #include "base/file.h"
@@ -132,6 +133,8 @@ Exit run(const FitMapCall& o) {
   if (!o.tiles.empty()) return run_tiles(o, stack, grid, found);
 
   OutputFile out(o.output);  // before the work: nobody waits to learn that it has no place
+  std::optional<OutputFile> page;
+  if (!o.html.empty()) page.emplace(o.html);
   // Tiles stay beside it until it is whole: a run that was killed goes on from them.
   const std::string folder = o.output + ".tiles";
   const FolderLock lock(folder, FolderLock::Taken::is_refused);
@@ -145,7 +148,10 @@ Exit run(const FitMapCall& o) {
   d.left_out = found.left_out;
   d.warnings = warnings_of(found, stack.stack(), t.model);
   out.commit();
-  if (!o.html.empty()) write_file(o.html, map_page_html(d));
+  if (page) {
+    page->write(map_page_html(d));
+    page->commit();
+  }
   line.line().clear();
   print_map(d, o, n.kept ? fmt::format("{} of {} tiles kept from before", n.kept, n.tiles) : "");
   std::error_code kept;

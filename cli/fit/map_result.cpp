@@ -26,9 +26,11 @@ void print(const MapDocument& d, const std::string& beside) {
   if (d.left_out > 0)
     say("values  {:.2g} % left out: no number, below 0, clipped or dark\n", 100 * d.left_out);
   if (!std::isnan(d.rms)) say("rms     {:.3g} on average, in the metric's unit\n", d.rms);
-  if (50 * d.misfit > texels)  // of the right model one in 200
+  if (d.judged == 0)
+    say("misfit  not judged: the noise is not known\n");
+  else if (misfits(d))
     say_below("misfit  ", fmt::format("{} of the texels are off by more than noise leaves",
-                                      percent(d.misfit, texels)));
+                                      percent(d.misfit, d.judged)));
   for (const auto& p : d.parameters) {
     std::string text = std::isnan(p.mean) ? "–" : fmt::format("{:.4g} on average", p.mean);
     if (!std::isnan(p.mean_std_error)) text += fmt::format(" ± {:.2g} each", p.mean_std_error);

@@ -11,6 +11,7 @@
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "image/image_file.h"
+#include "image/png_file.h"
 #include "stack/lamps.h"
 
 #include <fmt/format.h>
@@ -47,9 +48,14 @@ Exit run(const StackCall& o) {
     for (auto& image : s.images) image.scale = o.reflectance / (std::numbers::pi * *o.white);
   s.saturation = o.saturation;
   s.floor = o.floor;
-  const bool has_png = std::ranges::any_of(
-      s.images, [](const StackImage& image) { return image.path.ends_with(".png"); });
-  if (!s.saturation && has_png) s.saturation = 1;  // the largest number that a PNG has
+  if (s.saturation && s.floor && *s.saturation <= *s.floor)
+    throw wrong_usage("--saturation: expected a number above that of --floor");
+  if (o.reflectance != 1 && !o.white)
+    throw wrong_usage("--white-reflectance: expected --white, the number that the tile has");
+  const bool all_png = std::ranges::all_of(s.images, [&](const StackImage& image) {
+    return is_png(InputFile(s.path_of(image.path)).peek(8));
+  });
+  if (!s.saturation && all_png) s.saturation = 1;  // the largest number that a PNG has
   const Rectangle size = size_of_all(s);
   const std::string text = to_json(s);
   write_file(o.output, text);

@@ -26,7 +26,9 @@ void add_reading(Command& c, ReadingWords& words, bool bounds) {
 }
 
 bool names_table(const std::string& word) {
-  if (foreign::is_name(word) || word.ends_with(".json") || !std::filesystem::exists(word))
+  std::error_code none;
+  if (foreign::is_name(word) || word.ends_with(".json") ||
+      !std::filesystem::is_regular_file(word, none))
     return false;
   InputFile in(word);
   return !begins_as_fit(in.peek(256));  // a table's bytes do not

@@ -14,6 +14,7 @@
 #include "base/json/reader.h"
 #include "base/text.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/own_files.h"
 #include "brdf/term/map.h"
 #include "fitting/export/placement.h"
 #include "fitting/export/target.h"
@@ -157,7 +158,7 @@ double residual_of(const std::vector<std::vector<double>>& target,
       sum += d * d;
     }
   }
-  return std::sqrt(sum / static_cast<double>(target.size() * judged));
+  return std::sqrt(sum / static_cast<double>(target.size() * fit[0].size()));
 }
 
 /// Does something for the texels of a map, on all threads: each(texel's number, model of the texel), from any thread.
@@ -256,7 +257,7 @@ PngImage normals_of(const std::string& path) {
     }
     file->read(part, channels, into);
     for (std::size_t t = 0; t < part.size(); ++t) {
-      const bool known = !std::isnan(rows[2][t]);
+      const bool known = !std::isnan(rows[0][t] + rows[1][t] + rows[2][t]);
       auto& pixel = png.pixels.emplace_back();
       for (std::size_t k = 0; k < 3; ++k)
         pixel[k] = byte_of(known ? (double{rows[k][t]} + 1) / 2 : k == 2 ? 1 : 0.5);
@@ -284,8 +285,17 @@ MapExport export_map(const std::string& path, std::string& file) {
                                 most_texels));
   MapExport e;
   e.map = path;
-  e.model = header.attributes.at("gonio:model");
-  const auto names = attribute_of(header, "gonio:channels", path, "a map of gonio fit_map");
+  const auto attribute = [&](const char* name) {
+    return attribute_of(header, name, path, "a map of gonio fit_map");
+  };
+  e.model = attribute("gonio:model");
+  const std::string stack = attribute("gonio:stack");
+  expect_own_files_below(path, e.model);
+  for (const auto& f : own_files({e.model}))
+    if (attribute("gonio:shaders").find(f.sha256) == std::string::npos)
+      throw bad_input(path, "gonio:shaders", "another text of " + f.file,
+                      "the one that the map was fitted with");
+  const auto names = attribute("gonio:channels");
   const BoundModel start = bind_model(e.model, {}, split(std::string_view(names), ',').size());
   e.width = header.width;
   e.height = header.height;
@@ -353,8 +363,7 @@ MapExport export_map(const std::string& path, std::string& file) {
     textures.push_back(&normals);
     material["normalTexture"] = {{"index", 3}};
   }
-  material["extras"] = {
-      {"gonio", {{"model", e.model}, {"stack", header.attributes.at("gonio:stack")}}}};
+  material["extras"] = {{"gonio", {{"model", e.model}, {"stack", stack}}}};
   Json all{{"asset", {{"version", "2.0"}, {"generator", "gonio"}}},
            {"extensionsUsed", {"KHR_materials_ior", "KHR_materials_specular"}},
            {"materials", Json::array({material})}};

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <limits>
 #include <numeric>
 #include <string_view>
 #include <utility>
@@ -49,8 +51,9 @@ void reorder(TexelSample& s, const std::vector<std::size_t>& order) {
                 s.values.begin() + static_cast<std::ptrdiff_t>(i * run));
 }
 
+/// Another arrangement, by what makes it of the given one.
 struct Arrangement {
-  TexelSample sample;
+  std::function<void(TexelSample&)> make;
   std::string what, cure;
 };
 
@@ -83,12 +86,13 @@ std::vector<Arrangement> arrangements(const TexelSample& s) {
   std::vector<Arrangement> all;
   const std::size_t run = s.shared ? 1 : s.texels;
   const auto add = [&](std::string_view whose, std::string_view key, const Turn& by,
-                       std::initializer_list<std::vector<float> TexelSample::*> which) {
-    Arrangement a{s, fmt::format("{} is {}", whose, by.what),
-                  fmt::format("{} becomes {}", key, by.azimuth)};
-    for (const auto vectors : which)
-      turn(a.sample.*vectors, vectors == &TexelSample::normal ? s.texels : run, by);
-    all.push_back(std::move(a));
+                       std::vector<std::vector<float> TexelSample::*> which) {
+    all.push_back({[=, texels = s.texels](TexelSample& to) {
+                     for (const auto vectors : which)
+                       turn(to.*vectors, vectors == &TexelSample::normal ? texels : run, by);
+                   },
+                   fmt::format("{} is {}", whose, by.what),
+                   fmt::format("{} becomes {}", key, by.azimuth)});
   };
   for (const auto& by : turns) {
     add("the light's azimuth", "phi_i", by, {&TexelSample::light});
@@ -99,11 +103,9 @@ std::vector<Arrangement> arrangements(const TexelSample& s) {
     else
       add("the normals' azimuth", "φ, the azimuth of X and Y,", by, {&TexelSample::normal});
   }
-  for (auto& [order, what] : orders(s.images)) {
-    Arrangement a{s, what, "list them in the order of their directions"};
-    reorder(a.sample, order);
-    all.push_back(std::move(a));
-  }
+  for (auto& [order, what] : orders(s.images))
+    all.push_back({[order = order](TexelSample& to) { reorder(to, order); }, what,
+                   "list them in the order of their directions"});
   return all;
 }
 
@@ -113,16 +115,20 @@ OtherArrangement other_arrangement(const TexelSample& s,
                                    const TexelOptions& o,
                                    const TexelFit& given) {
   const auto all = arrangements(s);
+  std::size_t compared = 0;
+  for (const double left : deviations_left(given)) compared += left >= 0;
   std::vector<LeftLess> seen(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
-    const TexelFit other = fit_sample(all[k].sample, o);
+    TexelSample sample = s;
+    all[k].make(sample);
+    const TexelFit other = fit_sample(sample, o);
     auto left = deviations_left(other);
-    for (std::size_t t = 0; t < s.texels;
-         ++t)  // what it puts below the surface is not thereby explained
+    // Values that it puts below the surface are not thereby explained.
+    for (std::size_t t = 0; t < s.texels; ++t)
       if (other.count[t] < 0.97F * given.count[t])
         left[t] = std::numeric_limits<double>::quiet_NaN();
     seen[k] = compare_left(left, deviations_left(given), least_left(given));
-    if (seen[k].texels * 10 < s.texels * 5) seen[k] = {};
+    if (seen[k].texels * 2 < compared) seen[k] = {};
   });
   OtherArrangement best;
   for (std::size_t k = 0; k < all.size(); ++k) {

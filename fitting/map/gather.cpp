@@ -44,6 +44,7 @@ inline constexpr auto description<MapDocument> = std::tuple{
         "texels", "how their fits ended", Field{"converged", &MapDocument::converged, ""},
         Field{"not_converged", &MapDocument::not_converged, "the best seen is kept"},
         Field{"no_data", &MapDocument::no_data, "no value that can be compared"},
+        Field{"judged", &MapDocument::judged, "whose noise is known"},
         Field{"misfit", &MapDocument::misfit, "off by more than noise leaves, however they ended"}},
     Field{"left_out", &MapDocument::left_out,
           "part of a sample's values that is not compared: no number, below 0, clipped or dark"},
@@ -269,6 +270,7 @@ MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads
       d.no_data += ended(TexelOutcome::no_data);
       for (std::size_t t = 0; t < texels; ++t) {
         if (!std::isnan(rows[rms][t])) sum_of_rms += double{rows[rms][t]};
+        d.judged += rows[misfit][t] >= 0;
         d.misfit += rows[misfit][t] > 1;
       }
       writer.write(count, planes);

@@ -25,13 +25,18 @@ struct MapDocument {
   std::string path, model, options, stack;  ///< stack: StackReader::digest()
   std::size_t width = 0, height = 0, tiles = 0;
   std::uint64_t converged = 0, not_converged = 0, no_data = 0;  ///< texels
-  std::uint64_t misfit = 0;  ///< texels that are off by more than noise leaves
+  std::uint64_t judged = 0;                                     ///< texels whose noise is known
+  std::uint64_t misfit = 0;  ///< of these, texels that are off by more than noise leaves
   double left_out = std::numeric_limits<double>::quiet_NaN();  ///< part of a sample's values; of
                                                                ///< tiles that were joined unknown
   double rms = 0;                     ///< of the metric's residuals, on average; NaN of none
   std::vector<std::string> warnings;  ///< of a survey; of tiles that were joined none
   std::vector<MapParameter> parameters;
 };
+/// Whether more of the judged texels are off than chance makes.
+inline bool misfits(const MapDocument& d) {
+  return 50 * d.misfit > d.judged;
+}
 /// "gonio.map/1"
 std::string to_json(const MapDocument&);
 std::string map_schema();

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/quantile.h"
 #include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 #include "stack/stack.h"
@@ -19,10 +20,7 @@ Direction direction_at(const std::vector<float>& from, std::size_t at, std::size
 }  // namespace
 
 double median_of(std::vector<double> of) {
-  if (of.empty()) return unknown;
-  const auto middle = of.begin() + static_cast<std::ptrdiff_t>(of.size() / 2);
-  std::ranges::nth_element(of, middle);
-  return *middle;
+  return of.empty() ? unknown : median(of);
 }
 
 double cosine_of(const TexelSample& s, std::size_t image, std::size_t t) {
@@ -67,17 +65,20 @@ LeftLess compare_left(std::vector<double> now,
                       std::vector<double> before,
                       const std::vector<double>& least) {
   std::vector<double> ratios;
-  std::size_t lower = 0;
+  constexpr double alike = 0.01;
+  std::size_t lower = 0, higher = 0;
   for (std::size_t t = 0; t < before.size(); ++t) {
-    if (std::isnan(before[t]) || std::isnan(now[t])) continue;
+    if (!(before[t] >= 0 && now[t] >= 0 && least[t] > 0))
+      continue;  // of black texels nothing is known
     for (auto* rms : {&now[t], &before[t]}) *rms = std::max(*rms, least[t]);
     ratios.push_back(now[t] / before[t]);
-    lower += now[t] < before[t];
+    lower += now[t] < (1 - alike) * before[t];
+    higher += now[t] > (1 + alike) * before[t];
   }
   LeftLess c;
   c.texels = ratios.size();
   if (ratios.empty()) return c;
-  c.lower = static_cast<double>(lower) / static_cast<double>(ratios.size());
+  if (lower > 0) c.lower = static_cast<double>(lower) / static_cast<double>(lower + higher);
   c.ratio = median_of(std::move(ratios));
   return c;
 }
@@ -94,6 +95,7 @@ std::vector<double> predicted(const TexelSample& s, const TexelFit& f, const Tex
   std::vector<FrameAngles<double>> angles(s.images);
   const auto& normals = f.normal.empty() ? s.normal : f.normal;
   for (std::size_t t = 0; t < s.texels; ++t) {
+    model.values = task.problem.start.values;
     for (std::size_t k = 0; k < f.columns.size(); ++k)
       if (!std::isnan(f.columns[k].value[t])) model.values[k] = double{f.columns[k].value[t]};
     Direction n;

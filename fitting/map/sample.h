@@ -41,7 +41,8 @@ std::vector<double> deviations_left(const TexelFit&);
 /// How much less a fit leaves than another, texel by texel.
 struct LeftLess {
   double ratio = 1;  ///< median of the ratios of rms
-  double lower = 0;  ///< part of the texels where it leaves less
+  double lower =
+      0;  ///< of the texels where the two differ by more than 1 %, the part where it leaves less
   std::size_t texels = 0;
 };
 /// What no camera tells from a texel's light: less than that is not compared.

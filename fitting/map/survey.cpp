@@ -16,14 +16,24 @@ namespace gonio {
 namespace {
 
 /// What a texel's variance is in proportion to, by kind of noise.
-double scale(const TexelFit& f, std::size_t t, bool follows_light) {
-  return follows_light ? double{f.signal[t]} * double{f.signal[t]} : 1;
+/// \param dark  signal below which the camera's own noise takes over
+double scale(const TexelFit& f, std::size_t t, bool follows_light, double dark) {
+  const double signal = std::max(double{f.signal[t]}, dark);
+  return follows_light ? signal * signal : 1;
+}
+
+double dark_of(const TexelFit& f) {
+  std::vector<double> signals(f.signal.begin(), f.signal.end());
+  std::erase_if(signals, [](double s) { return !(s > 0); });
+  return signals.empty() ? 0 : 0.05 * median_of(std::move(signals));
 }
 
 std::vector<double> variances(const TexelFit& f, bool follows_light) {
   std::vector<double> all;
+  const double dark = dark_of(f);
   for (std::size_t t = 0; t < f.rms.size(); ++t)
-    if (const double v = variance_left(f, t) / scale(f, t, follows_light); v > 0) all.push_back(v);
+    if (const double v = variance_left(f, t) / scale(f, t, follows_light, dark); v > 0)
+      all.push_back(v);
   return all;
 }
 
@@ -47,7 +57,7 @@ TexelNoise noise_of(const TexelFit& f, bool wrong) {
   std::erase_if(least, [](double x) { return !(x > 0); });
   const double floor = n.follows_light ? 1e-3 : median_of(std::move(least));
   const std::size_t beyond = std::max<std::size_t>(all.size() / (wrong ? 4 : 200), 1);
-  n.level = static_cast<float>(std::max(std::sqrt(all[all.size() / 2]), floor));
+  n.dark = static_cast<float>(dark_of(f));
   n.most =
       static_cast<float>((wrong ? 1 : 1.05) * std::max(std::sqrt(all[all.size() - beyond]), floor));
   return n;
@@ -98,6 +108,23 @@ LeftLess without(TexelSample less, std::size_t image, const TexelFit& with, cons
                       least_left(with));
 }
 
+/// The images whose logarithms differ most from what a fit says, 16 at most.
+std::vector<std::size_t> loudest(const TexelSample& s,
+                                 std::vector<std::size_t> images,
+                                 const std::vector<double>& f_r) {
+  std::vector<double> loud(s.images);
+  for (const std::size_t i : images) {
+    std::vector<double> off;
+    for (std::size_t t = 0; t < s.texels; ++t)
+      for (const double d : differences(s, i, t, f_r, Metric::log)) off.push_back(d);
+    loud[i] = off.empty() ? 0 : rms_of_all(off);
+  }
+  std::ranges::stable_sort(images, std::ranges::greater{}, [&](std::size_t i) { return loud[i]; });
+  constexpr std::size_t most = 16;
+  images.resize(std::min(images.size(), most));
+  return images;
+}
+
 /// An image is odd where the ratios of the others agree far better without it, and nearly all of its values are off to one side or its
 /// light is off by far more than that of others: the darkest image of a noisy stack is neither.
 std::vector<OddImage> odd_images(TexelSample s, TexelOptions by_ratios) {
@@ -110,12 +137,13 @@ std::vector<OddImage> odd_images(TexelSample s, TexelOptions by_ratios) {
   const TexelTask task(by_ratios, s.channels);
   while (odd.size() < most_odd && left.size() >= least_images) {
     const TexelFit with = fit_sample(s, by_ratios);
-    std::vector<LeftLess> seen(left.size());
-    tbb::parallel_for(std::size_t{0}, left.size(),
-                      [&](std::size_t k) { seen[k] = without(s, left[k], with, by_ratios); });
+    const auto suspects = loudest(s, left, predicted(s, with, task));
+    std::vector<LeftLess> seen(suspects.size());
+    tbb::parallel_for(std::size_t{0}, suspects.size(),
+                      [&](std::size_t k) { seen[k] = without(s, suspects[k], with, by_ratios); });
     const auto least = std::ranges::min_element(seen, {}, &LeftLess::ratio);
     if (least->ratio > odd_ratio || least->lower < 0.8 || least->texels < few_texels) break;
-    const std::size_t image = left[static_cast<std::size_t>(least - seen.begin())];
+    const std::size_t image = suspects[static_cast<std::size_t>(least - seen.begin())];
     TexelSample less = s;
     leave_out(less, image);
     const auto f_r = predicted(s, fit_sample(less, by_ratios), task);
@@ -129,7 +157,7 @@ std::vector<OddImage> odd_images(TexelSample s, TexelOptions by_ratios) {
     const double middle = median_of(ratios);
     const auto to_its_side = static_cast<double>(
         std::ranges::count_if(ratios, [&](double x) { return (x > 0) == (middle > 0); }));
-    const auto values = static_cast<double>(s.texels * s.channels);
+    const auto values = static_cast<double>(least->texels * s.channels);
     std::vector<double> light;
     for (const std::size_t i : left)
       if (const double of = rms_of_all(off(i, Metric::l2_cosine)); of >= 0) light.push_back(of);
@@ -179,16 +207,23 @@ StackSurvey survey(const TexelSamples& s, const TexelOptions& o) {
 }
 
 StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
-  constexpr std::size_t rows = 4, of_row = 64;
-  const std::size_t height = std::min(rows, stack.height()),
-                    width = std::min(of_row, stack.width());
+  // Fewer texels of many images, and of wide ones no more than the middle: neither time nor memory
+  // grows with them.
+  constexpr std::size_t least_rows = 4, most_of_row = 64, most_numbers = 1 << 24;
+  const std::size_t images = stack.stack().images.size(),
+                    of_row = std::clamp(std::size_t{1 << 14} / images, std::size_t{8}, most_of_row),
+                    columns = std::clamp(most_numbers / (images * stack.channels().size()),
+                                         std::size_t{1}, stack.width()),
+                    begin = (stack.width() - columns) / 2, width = std::min(of_row, columns),
+                    height =
+                        std::min(std::max(least_rows, of_row * least_rows / width), stack.height());
   TexelSample s;
   s.texels = height * width;
   s.shared = stack.shared();
   StackPart part;
   for (std::size_t r = 0; r < height; ++r) {
     const std::size_t y = (2 * r + 1) * stack.height() / (2 * height);
-    stack.read({0, y, stack.width(), 1}, part);
+    stack.read({begin, y, columns, 1}, part);
     if (r == 0) {
       s.images = part.images;
       s.channels = part.channels;
@@ -199,7 +234,7 @@ StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
       if (stack.has_normals()) s.normal.resize(3 * s.texels);
     }
     for (std::size_t k = 0; k < width; ++k) {
-      const std::size_t x = (2 * k + 1) * stack.width() / (2 * width), to = r * width + k;
+      const std::size_t x = (2 * k + 1) * columns / (2 * width), to = r * width + k;
       const auto piece = part.piece(x / StackPart::piece_texels);
       const std::size_t from = x - piece.first;
       const auto take = [&](std::span<const float> in, std::vector<float>& out) {
@@ -232,8 +267,9 @@ StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
 std::vector<float> misfit_of(const TexelFit& f, const TexelNoise& n) {
   std::vector<float> out(f.rms.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t t = 0; t < out.size(); ++t)
-    out[t] =
-        static_cast<float>(std::sqrt(variance_left(f, t) / scale(f, t, n.follows_light))) / n.most;
+    out[t] = static_cast<float>(
+                 std::sqrt(variance_left(f, t) / scale(f, t, n.follows_light, double{n.dark}))) /
+             n.most;
   return out;
 }
 

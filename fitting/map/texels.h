@@ -85,10 +85,11 @@ struct TexelColumn {
 
 /// What noise leaves of texels' residuals, found by a survey of the stack.
 struct TexelNoise {
-  /// Of a texel's rms, corrected for its unknowns: over the rms of its weighted values, or that rms itself.
-  float level = std::numeric_limits<float>::quiet_NaN();
-  bool follows_light = true;  ///< in proportion to the values; else the same for all
-  /// The same of all but one texel in 200; where another model is known to fit better, of three in four.
+  bool follows_light =
+      true;        ///< in proportion to the rms of a texel's weighted values; else the same for all
+  float dark = 0;  ///< rms of them below which it is that of this rms
+  /// What a texel's rms, corrected for its unknowns, over that exceeds once in 200 texels by chance; once in four where another model is
+  /// known to fit better.
   float most = std::numeric_limits<float>::quiet_NaN();
 };
 

@@ -382,11 +382,11 @@ def fit(table: Table | Path, model: str = "", *, models: str | Iterable[str] | N
         raise WrongUsage('models: found none, expected models to compare, or "all"')
     if isinstance(table, Table):
         if compared is None:
-            return Fit(_gonio.fit_table(table._table, options, jobs), eval, lambda: table)
+            return Fit(_gonio.fit_table(table._table, options, jobs), table)
         return Document(_gonio.compare_table(table._table, options, compared, jobs))
     path = _os.fspath(table)
     if compared is None:
-        return Fit(_gonio.fit_path(path, options, jobs), eval, lambda: read(path))
+        return Fit(_gonio.fit_path(path, options, jobs), path)
     return Document(_gonio.compare_path(path, options, compared, jobs))
 
 

@@ -13,6 +13,7 @@ from typing import Any, Literal
 from ._document import Document, Path
 from ._gonio import BadInput, Error, WrongUsage
 from ._own import OwnModel
+from ._own import OwnModel
 from ._program import PROGRAM
 
 Target = Literal["gltf", "mitsuba", "standard_surface", "open_pbr", "usd_preview"]
@@ -49,10 +50,16 @@ def _as_file(thing: Any, ending: str) -> Iterator[Path]:
                 file.write(thing.text)
             yield _os.path.join(folder, thing)
         return
-    if isinstance(thing, (str, _os.PathLike)):
+    if isinstance(thing, (str, _os.PathLike)) and not isinstance(thing, OwnModel):
         yield thing
         return
     with _tempfile.TemporaryDirectory(prefix="gonio-") as folder:
+        if isinstance(thing, OwnModel):  # of which the program reads the text
+            name = _os.path.join(folder, thing.partition(":")[0])
+            with open(name, "w", encoding="utf-8") as file:
+                file.write(thing.text)
+            yield _os.path.join(folder, thing)
+            return
         path = _os.path.join(folder, "it" + ending)
         thing.write(path)
         yield path
@@ -174,7 +181,7 @@ def explore(*what: Any, output: Path, **options: Any) -> Document:
         WrongUsage, BadInput: as ``compare``.
     """
     with _ExitStack() as files:
-        words = [files.enter_context(_as_file(w, ".json" if hasattr(w, "parameters") else ".csv")) for w in what]
+        words = [files.enter_context(_as_file(w, ".json" if isinstance(w, dict) else ".csv")) for w in what]
         return Document(_run("explore", words, {**options, "output": output, "json": True}))
 
 
@@ -190,7 +197,8 @@ def fit_map(stack: Path, output: Path, model: str | None = None, **options: Any)
     Raises:
         WrongUsage, BadInput: as ``compare``; directions that are not the images' own.
     """
-    return Document(_run("fit_map", [stack], {"model": model, **options, "output": output, "json": True}))
+    with _as_file(model or "", ".json") as m:
+        return Document(_run("fit_map", [stack], {"model": m or None, **options, "output": output, "json": True}))
 
 
 def report(name: str, output: Path = "reports", **options: Any) -> str:

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import html as _html
 import math as _math
-from collections.abc import Callable, Iterator
+import os as _os
+from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import Any
 
@@ -22,7 +23,7 @@ class Parameter:
 
     name: str
     value: Array
-    """NaN where no number can be told."""
+    """NaN where the data do not determine it."""
     std_error: Array
     """NaN where the status is not "free"."""
     ci95: Array
@@ -73,9 +74,8 @@ class Parameters:
 class Fit(Document):
     """The document of a fit, a ``dict`` with the keys of ``docs/document/fit.md``, and what one asks of it first."""
 
-    def __init__(self, text: str, evaluate: Callable[..., Array], table: Any = None) -> None:
+    def __init__(self, text: str, table: Any = None) -> None:
         super().__init__(text)
-        self._evaluate = evaluate
         self._table = table
 
     @property
@@ -121,7 +121,9 @@ class Fit(Document):
 
     def predict(self, theta_i: _npt.ArrayLike, phi_i: _npt.ArrayLike, theta_o: _npt.ArrayLike, phi_o: _npt.ArrayLike) -> Array:
         """f of the fitted model at directions, as ``gonio.eval``: 1/sr, channels last."""
-        return self._evaluate(self, theta_i, phi_i, theta_o, phi_o)
+        from . import eval as evaluate  # which is above this file
+
+        return evaluate(self, theta_i, phi_i, theta_o, phi_o)
 
     def residuals(self, table: Any = None) -> Array:
         """log(f of the table / f of the model), ``[sample, channel]``; NaN where either is not above 0.
@@ -129,7 +131,10 @@ class Fit(Document):
         Args:
             table: the fitted one unless given.
         """
-        t = self._table() if table is None else table
+        from . import read
+
+        t = self._table if table is None else table
+        t = read(t) if isinstance(t, (str, _os.PathLike)) else t
         f = self.predict(t.theta_i, t.phi_i, t.theta_o, t.phi_o)
         with _np.errstate(divide="ignore", invalid="ignore"):
             ratio = _np.log(t.values / f)

@@ -50,19 +50,19 @@ Cells cells_of(const std::string& path) {
   std::vector<float*> into;
   for (auto& r : row) into.push_back(r.data());
   for (std::size_t j = 0; j < c.rows; ++j) {
-    const std::size_t from_above = std::min(height - 1, j * step + step / 2);
+    const std::size_t from_above = (2 * j + 1) * height / (2 * c.rows);
     file->read({0, from_above, width, 1}, channels, into);
     for (std::size_t i = 0; i < c.columns; ++i)
       for (std::size_t k = 0; k < channels.size(); ++k)
         c.values[k][i * c.rows + (c.rows - 1 - j)] =
-            double{row[k][std::min(width - 1, i * step + step / 2)]};
+            double{row[k][(2 * i + 1) * width / (2 * c.columns)]};
   }
   for (std::size_t i = 0; i < c.columns; ++i) c.x.push_back(static_cast<double>(i * step));
   for (std::size_t j = 0; j < c.rows; ++j) c.y.push_back(static_cast<double>(j * step));
   return c;
 }
 
-/// What of a channel can be shown: the name of its colour, "kd" of "kd.R", where there are three.
+/// Name of the colour that a channel begins, "kd" of "kd.R"; none where the three channels are not there.
 std::optional<std::string> colour_of_channel(const Cells& c, const std::string& name) {
   if (!name.ends_with(".R")) return std::nullopt;
   const std::string of = name.substr(0, name.size() - 2);
@@ -161,15 +161,16 @@ std::string map_page_html(const MapDocument& d) {
   const auto texels = static_cast<double>(d.width * d.height);
   Page out{"", "fit_map", "Map of " + file_name(d.path),
            fmt::format("{} fitted to {} × {} texels", d.model, d.width, d.height)};
-  const double off = static_cast<double>(d.misfit) / texels;
   out.first.emplace_back(Prose{
-      fmt::format("**{}** of the texels converged. {}",
-                  percent(static_cast<double>(d.converged) / texels),
-                  off > 0.02 ? fmt::format("**{}** are off by more than noise leaves: the "
-                                           "model does not fit there, and intervals say little.",
-                                           percent(off))
-                             : "The model is off by no more than noise leaves, as far as a "
-                               "sample of the texels knows the noise."),
+      fmt::format(
+          "**{}** of the texels converged. {}", percent(static_cast<double>(d.converged) / texels),
+          d.judged == 0 ? "Whether the model fits is not judged: the noise is not known."
+          : misfits(d)
+              ? fmt::format("**{}** are off by more than noise leaves: the model does not "
+                            "fit there, and intervals say little.",
+                            percent(static_cast<double>(d.misfit) / static_cast<double>(d.judged)))
+              : "The model is off by no more than noise leaves, as far as a sample of the "
+                "texels knows the noise."),
       "verdict"});
   out.first.emplace_back(Pairs{
       {{"texels", count_text(d.width * d.height)},

@@ -66,7 +66,8 @@ void savings(Findings& to, const ScenesRows& r) {
       none.push_back(&row);
   }
   std::ranges::sort(all);
-  const auto& least = *std::ranges::min_element(held, {}, saved);
+  const auto& least = *std::ranges::min_element(
+      held, {}, [](const SceneRow& row) { return saved(row) < -little ? 1 : saved(row); });
   const auto& most = *std::ranges::max_element(held, {}, saved);
   const double middle = all[all.size() / 2];
   to.say(fmt::format(
@@ -79,8 +80,8 @@ void savings(Findings& to, const ScenesRows& r) {
     const auto* const slowest = *std::ranges::min_element(
         slower, {}, [](const SceneRow* row) { return row->ns_exact_float / row->ns_float; });
     to.say(
-        fmt::format("Plans take longer than everything on, whose light between facets does not "
-                    "keep the tolerance, for {}: up to {} times as long.",
+        fmt::format("Plans take longer than everything on for {}: up to {} times as long. Only the "
+                    "tabulated light between facets keeps the tolerance there.",
                     scenes_text(slower), times_text(slowest->ns_float / slowest->ns_exact_float)));
   }
   to.headline = fmt::format(

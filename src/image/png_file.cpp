@@ -1,8 +1,12 @@
 #include "image/png_file.h"
 
+#include <array>
 #include <cmath>
 #include <csetjmp>
 #include <cstdint>
+#include <cstdio>
+#include <exception>
+#include <new>
 #include <optional>
 
 #include "base/error.h"
@@ -23,23 +27,35 @@ bool done(png_struct* png, Do&& something) {
   return true;
 }
 
+/// libpng's two structs, taken away with whoever has them.
+struct PngStructs {
+  png_struct* png = nullptr;
+  png_info* info = nullptr;
+  PngStructs() = default;
+  PngStructs(const PngStructs&) = delete;
+  PngStructs& operator=(const PngStructs&) = delete;
+  ~PngStructs() { end(); }
+  void end() { png_destroy_read_struct(&png, &info, nullptr); }
+};
+
 class PngFile final : public ImageFile {
  public:
   PngFile(const std::string& path, bool linear) : ImageFile(path) {
     begin();
-    width_ = png_get_image_width(png_, info_);
-    height_ = png_get_image_height(png_, info_);
-    const int depth = png_get_bit_depth(png_, info_), type = png_get_color_type(png_, info_);
+    width_ = png_get_image_width(structs_.png, structs_.info);
+    height_ = png_get_image_height(structs_.png, structs_.info);
+    const int depth = png_get_bit_depth(structs_.png, structs_.info),
+              type = png_get_color_type(structs_.png, structs_.info);
     if (type == PNG_COLOR_TYPE_PALETTE || depth != 16)
       throw bad_input(
           path_, "header",
           fmt::format("{} bits{}", depth, type == PNG_COLOR_TYPE_PALETTE ? " of a palette" : ""),
           "16 bits a channel: eight hold too few steps of light");
-    if (png_get_interlace_type(png_, info_) != PNG_INTERLACE_NONE)
+    if (png_get_interlace_type(structs_.png, structs_.info) != PNG_INTERLACE_NONE)
       throw bad_input(path_, "header", "interlaced rows", "rows from the top");
     double gamma = 0;
-    const bool says = png_get_gAMA(png_, info_, &gamma) != 0,
-               is_srgb = png_get_valid(png_, info_, PNG_INFO_sRGB) != 0;
+    const bool says = png_get_gAMA(structs_.png, structs_.info, &gamma) != 0,
+               is_srgb = png_get_valid(structs_.png, structs_.info, PNG_INFO_sRGB) != 0;
     if (!linear && (is_srgb || !says || std::abs(gamma - 1) > 0.01))
       throw bad_input(
           path_, "gAMA",
@@ -54,17 +70,17 @@ class PngFile final : public ImageFile {
       channels_ = {"Y"};
     samples_ = channels_.size() + ((type & PNG_COLOR_MASK_ALPHA) != 0 ? 1 : 0);
     row_.resize(width_ * samples_ * 2);
+    block_width_ = width_;
   }
-  ~PngFile() override { end(); }
 
   void read(const Rectangle& part,
             std::span<const std::size_t> channels,
             std::span<float* const> to) override {
-    if (!png_ || part.y < next_) begin();
+    if (!structs_.png || part.y < next_) begin();
     for (std::size_t y = 0; y < part.height; ++y) {
       while (next_ <= part.y + y) {
         png_byte* const row = row_.data();
-        if (!done(png_, [&] { png_read_row(png_, row, nullptr); }))
+        if (!done(structs_.png, [&] { png_read_row(structs_.png, row, nullptr); }))
           refuse(fmt::format("row {}", next_));
         ++next_;
       }
@@ -78,43 +94,56 @@ class PngFile final : public ImageFile {
 
  private:
   void begin() {
-    end();
+    structs_.end();
     in_.emplace(path_);
     next_ = 0;
     message_ = {};
-    png_ = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error,
-                                  [](png_struct*, const char*) {});
-    info_ = png_ ? png_create_info_struct(png_) : nullptr;
-    if (!info_) throw std::bad_alloc();
-    const bool read = done(png_, [&] {
-      png_set_user_limits(png_, longest_side, longest_side);
-      png_set_chunk_malloc_max(png_, 1 << 20);
-      png_set_chunk_cache_max(png_, 64);
-      png_set_read_fn(png_, this, on_read);
-      png_read_info(png_, info_);
+    structs_.png = png_create_read_struct(PNG_LIBPNG_VER_STRING, this, on_error,
+                                          [](png_struct*, const char*) {});
+    structs_.info = structs_.png ? png_create_info_struct(structs_.png) : nullptr;
+    if (!structs_.info) throw std::bad_alloc();
+    const bool read = done(structs_.png, [&] {
+      png_set_user_limits(structs_.png, longest_side, longest_side);
+      png_set_chunk_malloc_max(structs_.png, 1 << 20);
+      png_set_chunk_cache_max(structs_.png, 64);
+      png_set_read_fn(structs_.png, this, on_read);
+      png_read_info(structs_.png, structs_.info);
     });
     if (!read) refuse("header");
+    // Of a file that became another one meanwhile, rows have another length.
+    if (!row_.empty() && (png_get_rowbytes(structs_.png, structs_.info) != row_.size() ||
+                          png_get_image_height(structs_.png, structs_.info) != height_))
+      throw bad_input(path_, "header", "another size than before", "a file that stays as it is");
   }
-  void end() { png_destroy_read_struct(&png_, &info_, nullptr); }
   [[noreturn]] void refuse(const std::string& place) {
     const std::string found = printable(message_.data(), 100);
-    end();
+    structs_.end();
     throw bad_input(path_, place, found, fmt::format("a PNG of at most {0} × {0}", longest_side));
   }
+  void keep(const char* message) {
+    if (message != message_.data()) std::snprintf(message_.data(), message_.size(), "%s", message);
+  }
   static void on_error(png_struct* png, const char* message) {
-    auto& of = *static_cast<PngFile*>(png_get_error_ptr(png));
-    std::snprintf(of.message_.data(), of.message_.size(), "%s", message);
+    static_cast<PngFile*>(png_get_error_ptr(png))->keep(message);
     png_longjmp(png, 1);
   }
+  /// False where there are not as many bytes: no exception may pass through libpng.
+  bool read_bytes(png_byte* to, std::size_t n) {
+    try {
+      in_->read(to, n);
+      return true;
+    } catch (const std::exception& e) {
+      keep(e.what());
+      return false;
+    }
+  }
   static void on_read(png_struct* png, png_byte* to, std::size_t n) {
-    auto& in = *static_cast<PngFile*>(png_get_io_ptr(png))->in_;
-    if (in.size() - in.position() < n) png_error(png, "the end of the file");
-    in.read(to, n);
+    auto& file = *static_cast<PngFile*>(png_get_io_ptr(png));
+    if (!file.read_bytes(to, n)) png_error(png, file.message_.data());
   }
 
   std::optional<InputFile> in_;
-  png_struct* png_ = nullptr;
-  png_info* info_ = nullptr;
+  PngStructs structs_;
   std::size_t next_ = 0, samples_ = 0;  ///< the row that is read next; numbers of a texel
   std::vector<png_byte> row_;
   std::array<char, 128> message_{};

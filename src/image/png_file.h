@@ -17,7 +17,7 @@ bool is_png(std::string_view first);
 /// last one begins the file anew.
 ///
 /// Its numbers have to be light: a file says so by its gAMA chunk, 1 [PNG 1.2, 11.3.3.2].
-/// \param linear  said of a file that says nothing, or otherwise
+/// \param linear  the numbers are light, whatever the file says
 /// \throws Error  bad_input of eight bits, of palettes, of interlaced rows, of any other gamma
 std::unique_ptr<ImageFile> open_png(const std::string& path, bool linear);
 

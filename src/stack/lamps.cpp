@@ -41,6 +41,10 @@ std::string_view trimmed(std::string_view s) {
 fs::path image_in(const fs::path& folder, const std::string& name) {
   std::error_code none;
   const fs::path as_named = folder / name;
+  const auto ending_of_name = as_named.extension();
+  if ((ending_of_name == ".exr" || ending_of_name == ".npy" || ending_of_name == ".png") &&
+      fs::exists(as_named, none))
+    return as_named;
   for (const char* ending : {".exr", ".npy", ".png"})
     if (const fs::path other = fs::path(as_named).replace_extension(ending);
         fs::exists(other, none))
@@ -58,7 +62,7 @@ Stack stack_of_lamps(const std::string& list, const std::string& images, const s
   s.path = path;
   s.values = StackValues::f_r_cosine;
   std::optional<std::size_t> count;
-  std::set<std::string> names;
+  std::set<std::string> files;
   std::size_t number = 0;
   for (std::string_view line : split(std::string_view(text), '\n')) {
     ++number;
@@ -85,14 +89,14 @@ Stack stack_of_lamps(const std::string& list, const std::string& images, const s
     std::string name(trimmed(line));
     name = name.substr(name.find_last_of("/\\") + 1);  // of the npos that it may be: from 0
     if (name.empty()) throw bad_input(list, place, whole, "a name before the numbers");
-    if (!names.insert(name).second)
-      throw bad_input(list, place, printable(name, 60), "each image once");
     const fs::path file = image_in(folder, name);
     expect_there(file.string());
     const fs::path relative = fs::proximate(file, beside.empty() ? fs::path(".") : beside);
     if (relative.is_absolute() || *relative.begin() == "..")
       throw bad_input(list, place, printable(file.string(), 100),
                       "an image below the folder of the stack: write that beside the images");
+    if (!files.insert(relative.generic_string()).second)
+      throw bad_input(list, place, printable(relative.generic_string(), 60), "each image once");
     StackImage& image = s.images.emplace_back();
     image.path = relative.generic_string();
     image.light = SideVector<Side::light>{{towards[0], towards[1], towards[2]}};

@@ -93,7 +93,7 @@ std::size_t StackReader::vectors(const std::string& name) {
 }
 
 StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
-  constexpr std::size_t kept_open = 64;
+  constexpr std::size_t kept_open = 256;  // a PNG that is opened again is read from its top
   for (const StackImage& image : stack_.images) {
     const std::string path = stack_.path_of(image.path);
     images_.push_back({path, {}, nullptr, InputFile(path).stamp()});

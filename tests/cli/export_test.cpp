@@ -149,6 +149,9 @@ TEST(ExportCommand, RefusesAMapTooLargeForTexturesBeforeItIsRead) {
   map.attributes = {
       {"gonio:schema", "gonio.map/1"}, {"gonio:model", "lambert"}, {"gonio:channels", "Y"}};
   write_exr(f / "large.exr", map);
+  Image small{1, 1, {"kd"}, {{0.5F}}, map.attributes};
+  write_exr(f / "small.exr", small);
+  expect_one_line(gonio(f, "export small.exr --to gltf -o m.gltf"), 3, "gonio:stack");
   expect_one_line(gonio(f, "export large.exr --to gltf -o m.gltf"), 3, "8192 × 4096");
 }
 

@@ -65,6 +65,9 @@ TEST(StackCommand, MakesAStackOfPhotographsAndTheListOfTheirLamps) {
   EXPECT_EQ(j["values"], "f_r_cosine");
   expect_one_line(gonio(f, "stack s/dome.lp --images d.csv -o s/x.json"), 3, "image_000.jpg");
   expect_one_line(gonio(f, "stack s/dome.lp --white 0 -o s/x.json"), 2, "--white");
+  expect_one_line(gonio(f, "stack s/dome.lp --white-reflectance 0.9 -o s/x.json"), 2, "--white");
+  expect_one_line(gonio(f, "stack s/dome.lp --saturation 1 --floor 2 -o s/x.json"), 2,
+                  "--saturation");
   EXPECT_FALSE(fs::exists(f / "s/x.json"));
 }
 
@@ -116,6 +119,11 @@ TEST(FitMapCommand, MakesAPageThatSaysWhereTheModelFits) {
   const std::string wrong = read_bytes(f / "m.html");
   EXPECT_NE(wrong.find("does not fit"), wrong.npos);
   expect_one_line(gonio(f, "fit_map s/stack.json -o maps.exr --html maps.exr"), 2, "maps.exr");
+  auto j = nlohmann::ordered_json::parse(read_bytes(f / "s/stack.json"));
+  while (j["images"].size() > 3) j["images"].erase(3);
+  f.write("s/three.json", j.dump(2) + "\n");
+  gonio(f, "fit_map s/three.json -o maps.exr --html m.html");
+  EXPECT_NE(read_bytes(f / "m.html").find("is not judged"), std::string::npos);
   expect_one_line(gonio(f, "fit_map s/stack.json --tile 0,0 -o t --html m.html"), 2, "--html");
 }
 

@@ -2,6 +2,7 @@
 
 import math
 import os
+import pickle
 from pathlib import Path
 
 from support import PAINT, PARAMETERS, InAFolder, gonio, np, program
@@ -54,7 +55,7 @@ class Fits(InAFolder):
         self.assertIn("alpha = 0.1", repr(self.fit))
         page = self.fit._repr_html_()
         self.assertIn("<td>alpha</td>", page)
-        evil = gonio.Fit(self.fit.text.replace('"warnings": []', '"warnings": ["<script>"]'), gonio.eval)
+        evil = gonio.Fit(self.fit.text.replace('"warnings": []', '"warnings": ["<script>"]'))
         self.assertEqual(evil.warnings, ["<script>"])
         self.assertNotIn("<script>", evil._repr_html_())
 
@@ -64,6 +65,7 @@ class Fits(InAFolder):
         self.assertTrue(fit.converged)
         self.assertEqual(fit.residuals().shape[1], 3)
         self.assertEqual(fit.document["schema"], "gonio.fit/1")
+        self.assertEqual(repr(pickle.loads(pickle.dumps(fit)).params), repr(fit.params))
 
 
 class Commands(InAFolder):

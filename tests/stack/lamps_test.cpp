@@ -71,11 +71,20 @@ TEST(Lamps, AreRefusedByTheirLine) {
   EXPECT_HAS(said("1\n0 0 1\n"), "a name before");
   EXPECT_HAS(said("1\nimg_0.exr 0 0 -1\n"), "z = -1");
   EXPECT_HAS(said("2\nimg_0.exr 0 0 1\nimg_0.exr 0 1 1\n"), "each image once");
+  EXPECT_HAS(said("2\nimg_0.jpg 0 0 1\nimg_0.tif 0 1 1\n"), "each image once");
   EXPECT_HAS(said("1\nnothing.exr 0 0 1\n"), "nothing.exr");
   write_dome(f, "1\nimg_0.exr 0 0 1\n");
   std::filesystem::create_directories(f / "other");
   EXPECT_HAS(refusal([&] { stack_of_lamps(f / "dome/lamps.lp", "", f / "other/stack.json"); }),
              "below the folder");
+}
+
+TEST(Lamps, TakeAnImageByItsNameBeforeOneOfAnotherEnding) {
+  const Folder f;
+  write_dome(f, "1\nimg_0.npy 0 0 1\n");
+  f.write("dome/img_0.npy", "an array");
+  EXPECT_EQ(stack_of_lamps(f / "dome/lamps.lp", "", f / "stack.json").images[0].path,
+            "dome/img_0.npy");
 }
 
 TEST(Lamps, OfManyLinesTakeLinearTime) {

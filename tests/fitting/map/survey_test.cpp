@@ -56,7 +56,7 @@ TEST(Survey, SaysNothingOfAStackThatIsAsItSays) {
         EXPECT_EQ(found.arrangement.what, "") << found.arrangement.ratio;
         EXPECT_EQ(found.better, "") << found.better_ratio;
         EXPECT_TRUE(found.odd.empty()) << found.odd[0].image << " " << found.odd[0].ratio;
-        EXPECT_FALSE(std::isnan(found.noise.level));
+        EXPECT_FALSE(std::isnan(found.noise.most));
       }
 }
 
@@ -163,12 +163,31 @@ TEST(Survey, NamesAnImageWhoseLampWasOffAndOneOfAnotherPlace) {
   }
 }
 
+TEST(Survey, LooksPastBlackAndEmptyTexels) {
+  const MadeUp right = made_up(1);
+  MadeUp s = right;
+  const std::size_t lit = 40;  // of 96
+  for (std::size_t row = 0; row < s.images * 3; ++row)
+    for (std::size_t t = lit; t < s.texels; ++t)
+      s.values[row * s.texels + t] = t % 2 ? 0 : std::nanf("");
+  EXPECT_EQ(look(s).arrangement.what, "");
+  change(s.light, [](float&, float& y) { y = -y; });
+  EXPECT_TRUE(look(s).arrangement.sure);
+  s = right;
+  for (std::size_t k = 0; k < s.texels * 3; ++k) s.values[5 * s.texels * 3 + k] *= 0.02F;
+  for (std::size_t row = 0; row < s.images * 3; ++row)
+    for (std::size_t t = lit; t < s.texels; ++t) s.values[row * s.texels + t] = std::nanf("");
+  const auto odd = look(s).odd;
+  ASSERT_EQ(odd.size(), 1U);
+  EXPECT_EQ(odd[0].image, 5U);
+}
+
 TEST(Survey, OfFewTexelsOrImagesKnowsNothing) {
   MadeUp s = made_up(1);
   s.texels = 96;
   std::fill(s.values.begin(), s.values.end(), std::nanf(""));
   EXPECT_EQ(look(s).texels, 0U);
-  EXPECT_TRUE(std::isnan(look(made_up(1, Loud::none, 2)).noise.level));
+  EXPECT_TRUE(std::isnan(look(made_up(1, Loud::none, 2)).noise.most));
 }
 
 TEST(Survey, OfAStackOfFilesIsOfRowsAllOverItAlsoOfLightAndNormals) {
