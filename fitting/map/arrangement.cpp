@@ -94,15 +94,15 @@ std::vector<Arrangement> arrangements(const TexelSample& s) {
                    fmt::format("{} is {}", whose, by.what),
                    fmt::format("{} becomes {}", key, by.azimuth)});
   };
-  for (const auto& by : turns) {
-    add("the light's azimuth", "phi_i", by, {&TexelSample::light});
-    add("the view's azimuth", "phi_o", by, {&TexelSample::view});
+  // What is likeliest first: of several that come to the same the first is named.
+  for (const auto& by : turns) add("the light's azimuth", "phi_i", by, {&TexelSample::light});
+  for (const auto& by : turns) add("the view's azimuth", "phi_o", by, {&TexelSample::view});
+  for (const auto& by : turns)
     if (s.normal.empty())
       add("the azimuth of light and view", "φ, as phi_i and phi_o,", by,
           {&TexelSample::light, &TexelSample::view});
     else
       add("the normals' azimuth", "φ, the azimuth of X and Y,", by, {&TexelSample::normal});
-  }
   for (auto& [order, what] : orders(s.images))
     all.push_back({[order = order](TexelSample& to) { reorder(to, order); }, what,
                    "list them in the order of their directions"});
@@ -111,23 +111,25 @@ std::vector<Arrangement> arrangements(const TexelSample& s) {
 
 }  // namespace
 
-OtherArrangement other_arrangement(const TexelSample& s,
-                                   const TexelOptions& o,
-                                   const TexelFit& given) {
+OtherArrangement other_arrangement(const TexelSample& s, TexelOptions asked, TexelOptions better) {
+  for (auto* o : {&asked, &better}) o->metric = Metric::l2_cosine;
+  const TexelFit given = fit_sample(s, asked);
+  const auto left_by_both = [&](const TexelSample& sample) {
+    auto left = light_left(sample, fit_sample(sample, asked), given);
+    if (better.model == asked.model) return left;
+    const auto other = light_left(sample, fit_sample(sample, better), given);
+    for (std::size_t t = 0; t < left.size(); ++t) left[t] = std::fmin(left[t], other[t]);
+    return left;
+  };
+  const auto as_given = left_by_both(s);
+  const auto compared = static_cast<std::size_t>(
+      std::ranges::count_if(as_given, [](double left) { return left >= 0; }));
   const auto all = arrangements(s);
-  std::size_t compared = 0;
-  for (const double left : deviations_left(given)) compared += left >= 0;
   std::vector<LeftLess> seen(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     TexelSample sample = s;
     all[k].make(sample);
-    const TexelFit other = fit_sample(sample, o);
-    auto left = deviations_left(other);
-    // Values that it puts below the surface are not thereby explained.
-    for (std::size_t t = 0; t < s.texels; ++t)
-      if (other.count[t] < 0.97F * given.count[t])
-        left[t] = std::numeric_limits<double>::quiet_NaN();
-    seen[k] = compare_left(left, deviations_left(given), least_left(given));
+    seen[k] = compare_left(left_by_both(sample), as_given, least_left(given));
     if (seen[k].texels * 2 < compared) seen[k] = {};
   });
   OtherArrangement best;

@@ -18,8 +18,9 @@ struct OtherArrangement {
   bool sure = false;
 };
 
-/// The arrangement that leaves least, if less than the given one.
-/// \param given  fit of the sample as it is
-OtherArrangement other_arrangement(const TexelSample&, const TexelOptions&, const TexelFit& given);
+/// The arrangement that leaves least light unexplained, if less than the given one: by the better of two fits each, that of the model asked for and that of
+/// `better`, so that directions are not blamed for a model that does not fit.
+/// \param better  the model that fits the given arrangement best
+OtherArrangement other_arrangement(const TexelSample&, TexelOptions asked, TexelOptions better);
 
 }  // namespace gonio

@@ -55,6 +55,25 @@ std::vector<double> deviations_left(const TexelFit& f) {
   return all;
 }
 
+std::vector<double> light_left(const TexelSample& s, const TexelFit& f, const TexelFit& given) {
+  auto all = deviations_left(f);
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    if (!s.of_light) {
+      if (f.count[t] < 0.97F * given.count[t]) all[t] = unknown;
+      continue;
+    }
+    double squares = 0;
+    for (std::size_t i = 0; i < s.images; ++i) {
+      if (cosine_of(s, i, t) >= least_cosine) continue;
+      for (std::size_t c = 0; c < s.channels; ++c)
+        if (const double y = double{s.values[(i * s.channels + c) * s.texels + t]}; y > 0)
+          squares += y * y;
+    }
+    if (f.freedom[t] > 0) all[t] = std::sqrt(all[t] * all[t] + squares / double{f.freedom[t]});
+  }
+  return all;
+}
+
 std::vector<double> least_left(const TexelFit& f) {
   std::vector<double> all;
   for (const float signal : f.signal) all.push_back(1e-3 * double{signal});
@@ -145,12 +164,20 @@ std::vector<double> unseen_errors(const TexelSample& s, const TexelOptions& o) {
   constexpr std::size_t parts = 4;
   const TexelTask task(o, s.channels);
   std::vector<std::vector<double>> differ(s.texels);
+  // Not every fourth image: lists of lamps go round by such numbers, and all of one height would be
+  // left out.
+  const auto part = [&](std::size_t k) {
+    std::vector<std::size_t> images;
+    for (std::size_t i = 0; i < s.images; ++i)
+      if ((i + i / parts) % parts == k) images.push_back(i);
+    return images;
+  };
   for (std::size_t k = 0; k < parts; ++k) {
     TexelSample less = s;
-    for (std::size_t i = k; i < s.images; i += parts) leave_out(less, i);
+    for (const std::size_t i : part(k)) leave_out(less, i);
     const auto f_r = predicted(s, fit_sample(less, o), task);
     for (std::size_t t = 0; t < s.texels; ++t)
-      for (std::size_t i = k; i < s.images; i += parts)
+      for (const std::size_t i : part(k))
         for (const double d : differences(s, i, t, f_r, o.metric)) differ[t].push_back(d);
   }
   std::vector<double> errors;

@@ -37,6 +37,10 @@ void leave_out(TexelSample&, std::size_t image);
 double variance_left(const TexelFit&, std::size_t texel);
 /// Root of that, by texel.
 std::vector<double> deviations_left(const TexelFit&);
+/// The same of a fit in the metric l2_cosine, to which light counts that directions below the surface cannot explain: a shadow is explained by them,
+/// a bright value is not.  NaN where values are lost that are no light (TexelSample::of_light).
+/// \param given  fit of the sample as it was read, which has its values
+std::vector<double> light_left(const TexelSample&, const TexelFit&, const TexelFit& given);
 
 /// How much less a fit leaves than another, texel by texel.
 struct LeftLess {

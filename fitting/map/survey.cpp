@@ -64,8 +64,12 @@ TexelNoise noise_of(const TexelFit& f, bool wrong) {
 }
 
 /// Models that a surface may follow where the one asked for does not fit.
-constexpr std::array<std::string_view, 5> others{
-    "lambert+gtr/smith_ggx.correlated/schlick", "oren_nayar+ggx/smith_ggx.correlated/schlick",
+constexpr std::array<std::string_view, 8> others{
+    "lambert",
+    "oren_nayar",
+    "eon",
+    "lambert+gtr/smith_ggx.correlated/schlick",
+    "oren_nayar+ggx/smith_ggx.correlated/schlick",
     "lambert+beckmann/smith_beckmann.correlated/schlick",
     "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick",
     "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick"};
@@ -83,8 +87,9 @@ TexelOptions asked_of(std::string_view model, const TexelOptions& asked) {
 /// The model that leaves least in images that its fits have not seen, and how much of what the one asked for leaves there.
 std::pair<std::string, double> best_model(const TexelSample& s,
                                           const TexelOptions& o,
-                                          const std::vector<double>& least_rms) {
-  const auto given = unseen_errors(s, o);
+                                          const TexelFit& fit_as_asked) {
+  const auto given = unseen_errors(s, o), left = deviations_left(fit_as_asked),
+             least_rms = least_left(fit_as_asked);
   std::array<LeftLess, others.size()> seen;
   tbb::parallel_for(std::size_t{0}, others.size(), [&](std::size_t k) {
     const TexelOptions other = asked_of(others[k], o);
@@ -94,6 +99,10 @@ std::pair<std::string, double> best_model(const TexelSample& s,
     } catch (const Error&) {  // as an anisotropic one whose normals are sought
       return;
     }
+    // In the images that its fits have seen, too: where few determine a model, its error in others
+    // is chance.
+    const auto inside = compare_left(deviations_left(fit_sample(s, other)), left, least_rms);
+    if (inside.ratio > 0.92 || inside.lower < 0.6) return;
     seen[k] = compare_left(unseen_errors(s, other), given, least_rms);
   });
   const auto least = std::ranges::min_element(seen, {}, &LeftLess::ratio);
@@ -181,10 +190,9 @@ StackSurvey survey(const TexelSample& s, const TexelOptions& o) {
   const auto taken = std::accumulate(given.count.begin(), given.count.end(), 0.0F);
   found.left_out = 1 - double{taken} / static_cast<double>(s.values.size());
   if (found.texels < few_texels) return found;
-  found.arrangement = other_arrangement(s, o, given);
+  const auto [by, ratio] = best_model(s, o, given);
+  found.arrangement = other_arrangement(s, o, asked_of(by, o));
   if (found.arrangement.sure) return found;  // all else would be judged by wrong directions
-
-  const auto [by, ratio] = best_model(s, o, least_left(given));
   if (by != o.model) {
     found.better = by;
     found.better_ratio = ratio;
@@ -287,11 +295,11 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
         "{} does not fit: in images that fits have not seen, {} leaves an rms {} times less", model,
         s.better, times(s.better_ratio)));
   for (const auto& odd : s.odd)
-    lines.push_back(
-        fmt::format("{} does not agree with the other images, which leave an rms {} times less "
-                    "without it: it is {:.2g} times as bright as they "
-                    "say. Look at its lamp, its direction and its place",
-                    stack.images[odd.image].path, times(odd.ratio), odd.brightness));
+    lines.push_back(fmt::format(
+        "{} does not agree with the other images, which leave an rms {} times less "
+        "without it: it is {:.2g} times as bright as they "
+        "predict. Its lamp, direction or place is another, or the model does not fit there",
+        stack.images[odd.image].path, times(odd.ratio), odd.brightness));
   return lines;
 }
 

@@ -33,7 +33,7 @@ struct StackSurvey {
   std::vector<OddImage> odd;
 };
 
-/// Fits texels under other arrangements, by other models, which images judge that they have not seen, and without each image.
+/// Fits texels under other arrangements, by other models, judged in images that their fits have not seen, and without each image.
 ///
 /// - Arrangements: the azimuths of light, view or both mirrored, exchanged or turned by quarters, the normals' likewise, and the
 ///   images in another order (reversed, one further, by the alphabet).  Where nothing changes by that, as for flat isotropic
