@@ -65,8 +65,7 @@ Exit run(const StackCall& o) {
   }
   say("{}: {} of {} × {}\n", o.output, counted(s.images.size(), "image"), size.width, size.height);
   if (!o.white)
-    say("scale   unknown: kd and f0 come out right but for one factor. Photograph a white tile "
-        "that faces the "
+    say("scale   unknown: kd and f0 are off by one factor. Photograph a white tile that faces the "
         "lamp, and give its value: --white 0.8\n");
   return Exit::done;
 }
