@@ -13,6 +13,7 @@
 #include "image/image_file.h"
 #include "image/png_file.h"
 #include "stack/lamps.h"
+#include "stack/stack_reader.h"
 
 #include <fmt/format.h>
 
@@ -32,15 +33,17 @@ Rectangle size_of_all(const Stack& s) {
   for (const auto& image : s.images) {
     const auto file = open_image(s.path_of(image.path), s.linear);
     if (size.width == 0) size = {0, 0, file->width(), file->height()};
-    if (file->width() != size.width || file->height() != size.height)
-      throw bad_input(file->path(), "size", fmt::format("{} × {}", file->width(), file->height()),
-                      fmt::format("{} × {} as {}", size.width, size.height, s.images[0].path));
+    expect_size_of(s.images[0].path, size.width, size.height, *file);
   }
   return size;
 }
 
 Exit run(const StackCall& o) {
   use(o);
+  if (o.saturation && o.floor && *o.saturation <= *o.floor)
+    throw wrong_usage("--saturation: expected a number above that of --floor");
+  if (o.reflectance != 1 && !o.white)
+    throw wrong_usage("--white-reflectance: expected --white, the number that the tile has");
   check_outputs({o.lamps}, {o.output});
   Stack s = stack_of_lamps(o.lamps, o.images, o.output);
   s.linear = o.linear;
@@ -48,10 +51,6 @@ Exit run(const StackCall& o) {
     for (auto& image : s.images) image.scale = o.reflectance / (std::numbers::pi * *o.white);
   s.saturation = o.saturation;
   s.floor = o.floor;
-  if (s.saturation && s.floor && *s.saturation <= *s.floor)
-    throw wrong_usage("--saturation: expected a number above that of --floor");
-  if (o.reflectance != 1 && !o.white)
-    throw wrong_usage("--white-reflectance: expected --white, the number that the tile has");
   const bool all_png = std::ranges::all_of(s.images, [&](const StackImage& image) {
     return is_png(InputFile(s.path_of(image.path)).peek(8));
   });

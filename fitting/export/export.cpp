@@ -91,20 +91,6 @@ std::vector<FrameAngles<double>> fixed_angles(std::size_t first) {
   return all;
 }
 
-/// What a distance is relative to: f, or its mean in that channel where that is larger.
-std::vector<std::vector<double>> scale_of(const std::vector<std::vector<double>>& fit,
-                                          std::span<const FrameAngles<double>> at) {
-  const double least_cosine = std::cos(usual_zenith * degree);
-  auto scale = fit;
-  for (auto& channel : scale) {
-    double sum = 0, n = 0;
-    for (std::size_t i = 0; i < at.size(); ++i)
-      if (std::min(at[i].nol, at[i].nov) >= least_cosine) sum += channel[i], ++n;
-    for (double& f : channel) f = std::max({f, sum / n, std::numeric_limits<double>::min()});
-  }
-  return scale;
-}
-
 ExportPlace place_of(const DirectionPair& d) {
   const auto zenith = [](const Direction& w) { return std::acos(std::min(w.z, 1.0)) / degree; };
   const auto azimuth = [](const Direction& w) { return std::atan2(w.y, w.x) / degree; };
@@ -158,6 +144,19 @@ const Target& target_of(ExportTarget t) {
 }
 
 }  // namespace
+
+std::vector<std::vector<double>> scale_of(const std::vector<std::vector<double>>& fit,
+                                          std::span<const FrameAngles<double>> at) {
+  const double least_cosine = std::cos(usual_zenith * degree);
+  auto scale = fit;
+  for (auto& channel : scale) {
+    double sum = 0, n = 0;
+    for (std::size_t i = 0; i < at.size(); ++i)
+      if (std::min(at[i].nol, at[i].nov) >= least_cosine) sum += channel[i], ++n;
+    for (double& f : channel) f = std::max({f, sum / n, std::numeric_limits<double>::min()});
+  }
+  return scale;
+}
 
 std::vector<DirectionPair> judged_directions() {
   return fixed_directions(0);

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <limits>
-#include <mutex>
 
 #include "base/base64.h"
 #include "base/error.h"
@@ -59,7 +59,7 @@ constexpr std::size_t rows_at_once = 16, judged = 32;
 constexpr std::size_t most_texels = std::size_t{1} << 24;
 constexpr double largest_ior = 10;
 
-/// What a texel is in glTF's words.
+/// A texel's material by glTF's parameters.
 struct Texel {
   std::array<double, 3> base{}, f0{};
   double roughness = 1;
@@ -103,12 +103,6 @@ double from_srgb(unsigned char byte) {
 double f0_of(double ior) {
   return mapped<F0FromIor, double>(ior, 1.0)[0];
 }
-/// Index that reflects f0 at normal incidence.
-double ior_of(double f0) {
-  const double root = std::sqrt(std::clamp(f0, 0.0, f0_of(largest_ior)));
-  return (1 + root) / (1 - root);
-}
-
 /// Bytes of a texel in the textures.
 struct TexelBytes {
   std::array<unsigned char, 3> base{}, rough{}, tint{};
@@ -144,21 +138,20 @@ std::vector<FrameAngles<double>> judged_angles() {
   return all;
 }
 
-/// Root mean square of the relative distance between glTF's f and the map's.
+/// Root mean square of the relative distance between glTF's f and the map's, which may be grey.
 double residual_of(const std::vector<std::vector<double>>& target,
-                   const std::vector<std::vector<double>>& fit) {
+                   const std::vector<std::vector<double>>& fit,
+                   std::span<const FrameAngles<double>> at) {
+  const auto scale = scale_of(fit, at);
   double sum = 0;
   for (std::size_t c = 0; c < target.size(); ++c) {
-    const auto& f = fit[fit.size() == target.size() ? c : 0];
-    double mean = 0;
-    for (const double x : f) mean += x / static_cast<double>(f.size());
-    for (std::size_t i = 0; i < f.size(); ++i) {
-      const double d =
-          (target[c][i] - f[i]) / std::max({f[i], mean, std::numeric_limits<double>::min()});
+    const std::size_t of_fit = fit.size() == target.size() ? c : 0;
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      const double d = (target[c][i] - fit[of_fit][i]) / scale[of_fit][i];
       sum += d * d;
     }
   }
-  return std::sqrt(sum / static_cast<double>(target.size() * fit[0].size()));
+  return std::sqrt(sum / static_cast<double>(target.size() * at.size()));
 }
 
 /// Does something for the texels of a map, on all threads: each(texel's number, model of the texel), from any thread.
@@ -301,17 +294,16 @@ MapExport export_map(const std::string& path, std::string& file) {
   e.height = header.height;
   const std::size_t texels = e.width * e.height;
 
-  std::mutex one_at_a_time;
-  double strongest = 0;
+  std::atomic<double> strongest_f0 = 0;
   for_each_texel(start, path, [&](std::size_t, const BoundModel& model) {
     const Texel t = texel_of(model);
     if (t.metal) return;
     const double most = *std::ranges::max_element(t.f0);
-    const std::lock_guard lock(one_at_a_time);
-    strongest = std::max(strongest, most);
+    for (double now = strongest_f0; now < most;)
+      if (strongest_f0.compare_exchange_weak(now, most)) break;
   });
-  strongest = std::min(strongest, f0_of(largest_ior));
-  e.ior = ior_of(strongest);
+  const double strongest = std::min(strongest_f0.load(), f0_of(largest_ior));
+  e.ior = mapped<IorFromF0, double>(strongest)[0];
 
   PngImage base, rough, tint;
   for (auto* png : {&base, &rough, &tint}) {
@@ -338,7 +330,7 @@ MapExport export_map(const std::string& path, std::string& file) {
     metal[t] = texel.metal;
     if (texel.known)
       residuals[t] = static_cast<float>(
-          residual_of(form.values(parameters_of(bytes, e.ior), at), evaluate(model, at)));
+          residual_of(form.values(parameters_of(bytes, e.ior), at), evaluate(model, at), at));
   });
   e.metals = static_cast<std::size_t>(std::ranges::count(metal, 1));
   std::erase_if(residuals, [](float r) { return std::isnan(r); });

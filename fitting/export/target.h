@@ -50,6 +50,10 @@ struct Target {
 extern const Target gltf_target, mitsuba_target, standard_surface_target, open_pbr_target,
     usd_preview_target;
 
+/// What a distance between two f is relative to: f, or its mean in that channel over directions up to 80° where that is larger.
+std::vector<std::vector<double>> scale_of(const std::vector<std::vector<double>>& f,
+                                          std::span<const FrameAngles<double>>);
+
 /// Value of a parameter by its name: of a channel, or the only one.  0 where there is none.
 double parameter_in(const TargetParameters&, std::string_view name, std::size_t channel = 0);
 

@@ -94,7 +94,7 @@ std::vector<Arrangement> arrangements(const TexelSample& s) {
                    fmt::format("{} is {}", whose, by.what),
                    fmt::format("{} becomes {}", key, by.azimuth)});
   };
-  // What is likeliest first: of several that come to the same the first is named.
+  // The likeliest first: of several that are equally good the first is named.
   for (const auto& by : turns) add("the light's azimuth", "phi_i", by, {&TexelSample::light});
   for (const auto& by : turns) add("the view's azimuth", "phi_o", by, {&TexelSample::view});
   for (const auto& by : turns)
@@ -114,22 +114,23 @@ std::vector<Arrangement> arrangements(const TexelSample& s) {
 OtherArrangement other_arrangement(const TexelSample& s, TexelOptions asked, TexelOptions better) {
   for (auto* o : {&asked, &better}) o->metric = Metric::l2_cosine;
   const TexelFit given = fit_sample(s, asked);
-  const auto left_by_both = [&](const TexelSample& sample) {
-    auto left = light_left(sample, fit_sample(sample, asked), given);
+  const auto residuals_of_both = [&](const TexelSample& sample, const TexelFit& fit) {
+    auto left = light_residuals(sample, fit, given);
     if (better.model == asked.model) return left;
-    const auto other = light_left(sample, fit_sample(sample, better), given);
+    const auto other = light_residuals(sample, fit_sample(sample, better), given);
     for (std::size_t t = 0; t < left.size(); ++t) left[t] = std::fmin(left[t], other[t]);
     return left;
   };
-  const auto as_given = left_by_both(s);
+  const auto as_given = residuals_of_both(s, given);
   const auto compared = static_cast<std::size_t>(
       std::ranges::count_if(as_given, [](double left) { return left >= 0; }));
   const auto all = arrangements(s);
-  std::vector<LeftLess> seen(all.size());
+  std::vector<ResidualRatio> seen(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     TexelSample sample = s;
     all[k].make(sample);
-    seen[k] = compare_left(left_by_both(sample), as_given, least_left(given));
+    seen[k] = compare_residuals(residuals_of_both(sample, fit_sample(sample, asked)), as_given,
+                                residual_floor(given));
     if (seen[k].texels * 2 < compared) seen[k] = {};
   });
   OtherArrangement best;

@@ -42,21 +42,23 @@ TexelFit fit_sample(const TexelSample& s, const TexelOptions& o) {
   return fit_texels(f_r.spans(), o);
 }
 
-double variance_left(const TexelFit& f, std::size_t t) {
+double residual_variance(const TexelFit& f, std::size_t t) {
   if (f.freedom[t] < 3 || f.outcome[t] == static_cast<std::uint8_t>(TexelOutcome::no_data))
     return unknown;
   const double rms = double{f.rms[t]};
   return rms * rms * double{f.count[t]} / double{f.freedom[t]};
 }
 
-std::vector<double> deviations_left(const TexelFit& f) {
+std::vector<double> residual_deviations(const TexelFit& f) {
   std::vector<double> all;
-  for (std::size_t t = 0; t < f.rms.size(); ++t) all.push_back(std::sqrt(variance_left(f, t)));
+  for (std::size_t t = 0; t < f.rms.size(); ++t) all.push_back(std::sqrt(residual_variance(f, t)));
   return all;
 }
 
-std::vector<double> light_left(const TexelSample& s, const TexelFit& f, const TexelFit& given) {
-  auto all = deviations_left(f);
+std::vector<double> light_residuals(const TexelSample& s,
+                                    const TexelFit& f,
+                                    const TexelFit& given) {
+  auto all = residual_deviations(f);
   for (std::size_t t = 0; t < s.texels; ++t) {
     if (!s.of_light) {
       if (f.count[t] < 0.97F * given.count[t]) all[t] = unknown;
@@ -74,15 +76,15 @@ std::vector<double> light_left(const TexelSample& s, const TexelFit& f, const Te
   return all;
 }
 
-std::vector<double> least_left(const TexelFit& f) {
+std::vector<double> residual_floor(const TexelFit& f) {
   std::vector<double> all;
   for (const float signal : f.signal) all.push_back(1e-3 * double{signal});
   return all;
 }
 
-LeftLess compare_left(std::vector<double> now,
-                      std::vector<double> before,
-                      const std::vector<double>& least) {
+ResidualRatio compare_residuals(std::vector<double> now,
+                                std::vector<double> before,
+                                const std::vector<double>& least) {
   std::vector<double> ratios;
   constexpr double alike = 0.01;
   std::size_t lower = 0, higher = 0;
@@ -94,7 +96,7 @@ LeftLess compare_left(std::vector<double> now,
     lower += now[t] < (1 - alike) * before[t];
     higher += now[t] > (1 + alike) * before[t];
   }
-  LeftLess c;
+  ResidualRatio c;
   c.texels = ratios.size();
   if (ratios.empty()) return c;
   if (lower > 0) c.lower = static_cast<double>(lower) / static_cast<double>(lower + higher);

@@ -34,27 +34,27 @@ TexelFit fit_sample(const TexelSample&, const TexelOptions&);
 void leave_out(TexelSample&, std::size_t image);
 
 /// Square of what is left of a texel by each value that is free to differ; NaN where that is too few.
-double variance_left(const TexelFit&, std::size_t texel);
+double residual_variance(const TexelFit&, std::size_t texel);
 /// Root of that, by texel.
-std::vector<double> deviations_left(const TexelFit&);
+std::vector<double> residual_deviations(const TexelFit&);
 /// The same of a fit in the metric l2_cosine, to which light counts that directions below the surface cannot explain: a shadow is explained by them,
 /// a bright value is not.  NaN where values are lost that are no light (TexelSample::of_light).
 /// \param given  fit of the sample as it was read, which has its values
-std::vector<double> light_left(const TexelSample&, const TexelFit&, const TexelFit& given);
+std::vector<double> light_residuals(const TexelSample&, const TexelFit&, const TexelFit& given);
 
-/// How much less a fit leaves than another, texel by texel.
-struct LeftLess {
+/// How the residuals of a fit compare with those of another, over the texels.
+struct ResidualRatio {
   double ratio = 1;  ///< median of the ratios of rms
   double lower =
       0;  ///< of the texels where the two differ by more than 1 %, the part where it leaves less
   std::size_t texels = 0;
 };
-/// What no camera tells from a texel's light: less than that is not compared.
-std::vector<double> least_left(const TexelFit&);
-/// Of rms by texel, what is NaN left out.
-LeftLess compare_left(std::vector<double> now,
-                      std::vector<double> before,
-                      const std::vector<double>& least);
+/// A thousandth of each texel's signal: smaller residuals are not compared, for no camera resolves them.
+std::vector<double> residual_floor(const TexelFit&);
+/// Compares rms by texel; texels where one is NaN are left out.
+ResidualRatio compare_residuals(std::vector<double> now,
+                                std::vector<double> before,
+                                const std::vector<double>& least);
 
 /// f_r that a fit says, [image][channel][texel]; NaN where light or view is below the surface.
 std::vector<double> predicted(const TexelSample&, const TexelFit&, const TexelTask&);

@@ -15,7 +15,7 @@
 namespace gonio {
 namespace {
 
-/// What a texel's variance is in proportion to, by kind of noise.
+/// Scale of a texel's variance, by the kind of noise.
 /// \param dark  signal below which the camera's own noise takes over
 double scale(const TexelFit& f, std::size_t t, bool follows_light, double dark) {
   const double signal = std::max(double{f.signal[t]}, dark);
@@ -32,7 +32,7 @@ std::vector<double> variances(const TexelFit& f, bool follows_light) {
   std::vector<double> all;
   const double dark = dark_of(f);
   for (std::size_t t = 0; t < f.rms.size(); ++t)
-    if (const double v = variance_left(f, t) / scale(f, t, follows_light, dark); v > 0)
+    if (const double v = residual_variance(f, t) / scale(f, t, follows_light, dark); v > 0)
       all.push_back(v);
   return all;
 }
@@ -45,7 +45,7 @@ double spread(const std::vector<double>& all) {
   return median_of(std::move(off));
 }
 
-/// \param wrong  the model asked for is known to be: then one texel in four may be accused wrongly, and else one in 200
+/// \param wrong  the model asked for is known not to fit: then one texel in four may be accused wrongly, and else one in 200
 TexelNoise noise_of(const TexelFit& f, bool wrong) {
   TexelNoise n;
   auto by_light = variances(f, true), same = variances(f, false);
@@ -53,7 +53,7 @@ TexelNoise noise_of(const TexelFit& f, bool wrong) {
   n.follows_light = spread(by_light) <= spread(same);
   auto& all = n.follows_light ? by_light : same;
   std::ranges::sort(all);
-  std::vector<double> least = least_left(f);
+  std::vector<double> least = residual_floor(f);
   std::erase_if(least, [](double x) { return !(x > 0); });
   const double floor = n.follows_light ? 1e-3 : median_of(std::move(least));
   const std::size_t beyond = std::max<std::size_t>(all.size() / (wrong ? 4 : 200), 1);
@@ -88,9 +88,9 @@ TexelOptions asked_of(std::string_view model, const TexelOptions& asked) {
 std::pair<std::string, double> best_model(const TexelSample& s,
                                           const TexelOptions& o,
                                           const TexelFit& fit_as_asked) {
-  const auto given = unseen_errors(s, o), left = deviations_left(fit_as_asked),
-             least_rms = least_left(fit_as_asked);
-  std::array<LeftLess, others.size()> seen;
+  const auto given = unseen_errors(s, o), left = residual_deviations(fit_as_asked),
+             least_rms = residual_floor(fit_as_asked);
+  std::array<ResidualRatio, others.size()> seen;
   tbb::parallel_for(std::size_t{0}, others.size(), [&](std::size_t k) {
     const TexelOptions other = asked_of(others[k], o);
     if (others[k] == o.model) return;
@@ -101,20 +101,24 @@ std::pair<std::string, double> best_model(const TexelSample& s,
     }
     // In the images that its fits have seen, too: where few determine a model, its error in others
     // is chance.
-    const auto inside = compare_left(deviations_left(fit_sample(s, other)), left, least_rms);
+    const auto inside =
+        compare_residuals(residual_deviations(fit_sample(s, other)), left, least_rms);
     if (inside.ratio > 0.92 || inside.lower < 0.6) return;
-    seen[k] = compare_left(unseen_errors(s, other), given, least_rms);
+    seen[k] = compare_residuals(unseen_errors(s, other), given, least_rms);
   });
-  const auto least = std::ranges::min_element(seen, {}, &LeftLess::ratio);
+  const auto least = std::ranges::min_element(seen, {}, &ResidualRatio::ratio);
   if (least->ratio > 0.95 || least->lower < 0.6) return {o.model, 1};
   return {std::string(others[static_cast<std::size_t>(least - seen.begin())]), least->ratio};
 }
 
 /// How much less is left of texels without an image.
-LeftLess without(TexelSample less, std::size_t image, const TexelFit& with, const TexelOptions& o) {
+ResidualRatio without(TexelSample less,
+                      std::size_t image,
+                      const TexelFit& with,
+                      const TexelOptions& o) {
   leave_out(less, image);
-  return compare_left(deviations_left(fit_sample(less, o)), deviations_left(with),
-                      least_left(with));
+  return compare_residuals(residual_deviations(fit_sample(less, o)), residual_deviations(with),
+                           residual_floor(with));
 }
 
 /// The images whose logarithms differ most from what a fit says, 16 at most.
@@ -147,10 +151,10 @@ std::vector<OddImage> odd_images(TexelSample s, TexelOptions by_ratios) {
   while (odd.size() < most_odd && left.size() >= least_images) {
     const TexelFit with = fit_sample(s, by_ratios);
     const auto suspects = loudest(s, left, predicted(s, with, task));
-    std::vector<LeftLess> seen(suspects.size());
+    std::vector<ResidualRatio> seen(suspects.size());
     tbb::parallel_for(std::size_t{0}, suspects.size(),
                       [&](std::size_t k) { seen[k] = without(s, suspects[k], with, by_ratios); });
-    const auto least = std::ranges::min_element(seen, {}, &LeftLess::ratio);
+    const auto least = std::ranges::min_element(seen, {}, &ResidualRatio::ratio);
     if (least->ratio > odd_ratio || least->lower < 0.8 || least->texels < few_texels) break;
     const std::size_t image = suspects[static_cast<std::size_t>(least - seen.begin())];
     TexelSample less = s;
@@ -186,7 +190,7 @@ std::vector<OddImage> odd_images(TexelSample s, TexelOptions by_ratios) {
 StackSurvey survey(const TexelSample& s, const TexelOptions& o) {
   StackSurvey found;
   const TexelFit given = fit_sample(s, o);
-  for (std::size_t t = 0; t < s.texels; ++t) found.texels += variance_left(given, t) >= 0;
+  for (std::size_t t = 0; t < s.texels; ++t) found.texels += residual_variance(given, t) >= 0;
   const auto taken = std::accumulate(given.count.begin(), given.count.end(), 0.0F);
   found.left_out = 1 - double{taken} / static_cast<double>(s.values.size());
   if (found.texels < few_texels) return found;
@@ -275,8 +279,8 @@ StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
 std::vector<float> misfit_of(const TexelFit& f, const TexelNoise& n) {
   std::vector<float> out(f.rms.size(), std::numeric_limits<float>::quiet_NaN());
   for (std::size_t t = 0; t < out.size(); ++t)
-    out[t] = static_cast<float>(
-                 std::sqrt(variance_left(f, t) / scale(f, t, n.follows_light, double{n.dark}))) /
+    out[t] = static_cast<float>(std::sqrt(residual_variance(f, t) /
+                                          scale(f, t, n.follows_light, double{n.dark}))) /
              n.most;
   return out;
 }

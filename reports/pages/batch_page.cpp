@@ -13,6 +13,7 @@
 #include "image/png.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
+#include "reports/pages/histogram.h"
 #include "reports/pages/table_sections.h"
 
 #include <fmt/format.h>
@@ -196,24 +197,10 @@ Figure histogram(const Quantity& q, const std::vector<double>& values) {
   f.y = {"tables"};
   if (known.empty()) return f;
   f.note = "median " + significant(median(known));
-  const auto to = [&](double v) { return log ? std::log(v) : v; };
-  const auto from = [&](double v) { return log ? std::exp(v) : v; };
-  auto [low, high] = std::ranges::minmax(known);
-  low = to(low), high = to(high);
-  if (high - low < 1e-9) low -= 0.5, high += 0.5;
+  const auto [low, high] = std::ranges::minmax(known);
   const std::size_t bins = std::clamp<std::size_t>(
       static_cast<std::size_t>(2 * std::sqrt(static_cast<double>(known.size()))), 8, 40);
-  std::vector<double> count(bins);
-  const double step = (high - low) / static_cast<double>(bins);
-  for (const double v : known)
-    ++count[std::min(bins - 1, static_cast<std::size_t>((to(v) - low) / step))];
-  FigureCurve c{"tables", {}, {}};
-  for (std::size_t i = 0; i < bins; ++i)
-    for (const double end : {0.0, 0.999}) {
-      c.x.push_back(from(low + (static_cast<double>(i) + end) * step));
-      c.y.push_back(count[i]);
-    }
-  f.curves.push_back(std::move(c));
+  f.curves.push_back(histogram_curve("tables", known, low, high, bins, log));
   return f;
 }
 Section overview(const std::vector<const BatchRow*>& fitted,

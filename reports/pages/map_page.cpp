@@ -10,6 +10,7 @@
 #include "image/image_file.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
+#include "reports/pages/histogram.h"
 
 #include <fmt/format.h>
 
@@ -120,20 +121,8 @@ Figure histogram_of(const std::string& shown,
     if (std::isfinite(v)) known.push_back(v);
   if (known.empty()) return f;
   const double low = quantile(known, 0.002), high = quantile(known, 0.998);
-  constexpr std::size_t bins = 40;
-  const double step = std::max(high - low, 1e-9 * std::abs(high) + 1e-12) / bins;
-  std::vector<double> count(bins);
-  for (const double v : known)
-    if (v >= low && v <= low + step * bins)
-      ++count[std::min(bins - 1, static_cast<std::size_t>((v - low) / step))];
-  FigureCurve curve{"texels", {}, {}};
-  for (std::size_t i = 0; i < bins; ++i)
-    for (const double end : {0.0, 0.999}) {
-      curve.x.push_back(low + (static_cast<double>(i) + end) * step);
-      curve.y.push_back(count[i]);
-    }
   f.note = "median " + significant(median(known));
-  f.curves.push_back(std::move(curve));
+  f.curves.push_back(histogram_curve("texels", known, low, high, 40));
   return f;
 }
 

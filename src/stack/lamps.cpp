@@ -6,6 +6,7 @@
 #include <set>
 #include <string_view>
 
+#include "base/blanks.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/numbers.h"
@@ -19,7 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t most_list_bytes = 1 << 22;
-constexpr std::string_view blanks = " \t";
 
 /// Takes the last word of a line; empty where there is none.
 std::string_view last_word(std::string_view& line) {
@@ -30,11 +30,6 @@ std::string_view last_word(std::string_view& line) {
   const auto word = line.substr(before == line.npos ? 0 : before + 1);
   line = line.substr(0, line.size() - word.size());
   return word;
-}
-
-std::string_view trimmed(std::string_view s) {
-  const auto first = s.find_first_not_of(blanks), last = s.find_last_not_of(blanks);
-  return first == s.npos ? std::string_view() : s.substr(first, last - first + 1);
 }
 
 /// The image of a name in a folder, or one that differs from it by its ending.
@@ -66,7 +61,6 @@ Stack stack_of_lamps(const std::string& list, const std::string& images, const s
   std::size_t number = 0;
   for (std::string_view line : split(std::string_view(text), '\n')) {
     ++number;
-    while (line.ends_with('\r')) line.remove_suffix(1);
     if (trimmed(line).empty()) continue;
     const auto place = fmt::format("line {}", number);
     if (!count) {

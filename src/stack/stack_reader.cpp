@@ -59,15 +59,22 @@ StackPart::Piece StackPart::piece(std::size_t k) const {
   return p;
 }
 
+void expect_size_of(const std::string& first,
+                    std::size_t width,
+                    std::size_t height,
+                    const ImageFile& file) {
+  if (file.width() != width || file.height() != height)
+    throw bad_input(file.path(), "size", fmt::format("{} × {}", file.width(), file.height()),
+                    fmt::format("{} × {} as {}", width, height, first));
+}
+
 std::unique_ptr<ImageFile> StackReader::open(const std::string& path) {
   auto file = open_image(path, stack_.linear);
   if (width_ == 0) {
     width_ = file->width();
     height_ = file->height();
   }
-  if (file->width() != width_ || file->height() != height_)
-    throw bad_input(path, "size", fmt::format("{} × {}", file->width(), file->height()),
-                    fmt::format("{} × {} as {}", width_, height_, images_[0].path));
+  expect_size_of(images_[0].path, width_, height_, *file);
   // Of files in scan lines a part costs all columns.
   block_width_ = std::max(block_width_, file->block_width());
   block_height_ = std::max(block_height_, file->block_height());

@@ -36,6 +36,12 @@ struct StackPart {
   Floats values, light, view, normal;
 };
 
+/// Refuses an image of another size than the first one of its stack.
+void expect_size_of(const std::string& first,
+                    std::size_t width,
+                    std::size_t height,
+                    const ImageFile&);
+
 /// Open stack.  One thread reads parts, which are read on all.
 class StackReader {
  public:

@@ -5,9 +5,9 @@
 #include <limits>
 #include <numbers>
 
+#include "base/blanks.h"
 #include "base/error.h"
 #include "base/numbers.h"
-#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -5,9 +5,9 @@
 #include <numbers>
 #include <unordered_set>
 
+#include "base/blanks.h"
 #include "base/error.h"
 #include "base/numbers.h"
-#include "table/format/blanks.h"
 #include "table/format/delimited.h"
 
 #include <fmt/format.h>

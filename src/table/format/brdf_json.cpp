@@ -7,9 +7,9 @@
 #include <numbers>
 #include <tuple>
 
+#include "base/blanks.h"
 #include "base/error.h"
 #include "base/json/reader.h"
-#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -4,10 +4,10 @@
 #include <array>
 #include <utility>
 
+#include "base/blanks.h"
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/numbers.h"
-#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 

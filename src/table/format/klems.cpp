@@ -4,9 +4,9 @@
 #include <memory>
 #include <numbers>
 
+#include "base/blanks.h"
 #include "base/error.h"
 #include "base/numbers.h"
-#include "table/format/blanks.h"
 #include "table/format/tensor_tree.h"
 
 #include <fmt/format.h>

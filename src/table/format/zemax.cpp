@@ -7,11 +7,11 @@
 #include <memory>
 #include <set>
 
+#include "base/blanks.h"
 #include "base/error.h"
 #include "base/letters.h"
 #include "base/numbers.h"
 #include "base/text.h"
-#include "table/format/blanks.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
