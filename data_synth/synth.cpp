@@ -2,11 +2,13 @@
 
 #include <cmath>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
 #include "base/random.h"
 #include "base/text.h"
 #include "brdf/model/evaluate.h"
+#include "integrate/aperture/mean_values.h"
 #include "table/format/formats.h"
 #include "table/format/rgl/resample.h"
 
@@ -161,7 +163,22 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
         fmt::format("model '{}' is anisotropic: layout {} does not say how the surface was turned; "
                     "those of direction lists do: utia, in_plane, hemisphere, random",
                     b.model.spec, name_of(o.layout)));
+  if (o.aperture && t.grid())
+    throw wrong_usage(
+        fmt::format("aperture: layout {} is a grid of points; those of direction lists take one: "
+                    "utia, in_plane, hemisphere, random",
+                    name_of(o.layout)));
+  if (o.uncertainty && (t.format != "csv" || !(o.noise > 0)))
+    throw wrong_usage(
+        "uncertainty: goes with noise and a layout that is written as CSV: in_plane, hemisphere, "
+        "random");
   const SampleAngles at(t);
+  std::optional<ApertureAngles> seen;
+  if (o.aperture) {
+    t.aperture = aperture_from(*o.aperture);
+    seen.emplace(
+        n, [&](std::size_t i) { return at.directions(i); }, t.aperture, b.model.anisotropic);
+  }
   constexpr std::size_t chunk = 16384;
   tbb::parallel_for(std::size_t{0}, (n + chunk - 1) / chunk, [&](std::size_t k) {
     const std::size_t first = k * chunk, count = std::min(chunk, n - first);
@@ -174,8 +191,9 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
       }
       return evaluate(b, angles);
     };
-    const auto f = b.model.anisotropic ? values([&](std::size_t i) { return at.frame(i); })
-                                       : values([&](std::size_t i) { return at(i); });
+    auto f = b.model.anisotropic ? values([&](std::size_t i) { return at.frame(i); })
+                                 : values([&](std::size_t i) { return at(i); });
+    if (seen) f = mean_values(b, *seen, first, count);
     for (std::size_t i = 0; i < count; ++i) {
       Draws draw(o.seed, first + i);
       double outlier = 1;
@@ -189,6 +207,11 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
     }
   });
 
+  if (o.uncertainty) {
+    t.errors = t.values;
+    for (auto& plane : t.errors)
+      for (double& v : plane) v = std::max(o.noise * v, 1e-300);
+  }
   t.truth = Truth{b.model.spec, named_values(b), o.noise, o.floor, o.outliers, o.seed};
   t.notes.emplace_back("layout", name_of(o.layout));
   return t;

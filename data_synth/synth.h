@@ -5,11 +5,14 @@
 
 #include <array>
 #include <cstdint>
+#include <optional>
+#include <string>
 #include <tuple>
 
 #include "base/describe.h"
 #include "base/names.h"
 #include "brdf/model/model.h"
+#include "table/format/measured_by.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -40,6 +43,8 @@ struct SynthOptions {
   double floor = 0;
   double outliers = 0;  ///< share of samples multiplied by 10^u, u uniform in [−2, 2]
   std::uint64_t seed = 1;
+  std::optional<std::string> aperture;  ///< of direction lists
+  bool uncertainty = false;             ///< whether the table states noise × value as uncertainty
 };
 template <>
 inline constexpr auto description<SynthOptions> = std::tuple{
@@ -52,7 +57,11 @@ inline constexpr auto description<SynthOptions> = std::tuple{
           Numbers{0, 1e6}},
     Field{"outliers", &SynthOptions::outliers, "share of samples thrown off by up to 100 times",
           Numbers{0, 1}},
-    Field{"seed", &SynthOptions::seed, "the same table for the same seed, whatever the threads"}};
+    Field{"seed", &SynthOptions::seed, "the same table for the same seed, whatever the threads"},
+    Field{"aperture", &SynthOptions::aperture, aperture_in_words},
+    Field{"uncertainty", &SynthOptions::uncertainty,
+          "whether a CSV table states each value's standard uncertainty, NOISE × value",
+          Either{"unsaid", "stated"}}};
 
 /// Directions of the random layout, less than 87° from the normal.
 DirectionList random_pairs(std::size_t n, std::uint64_t seed);

@@ -19,12 +19,15 @@
 #include "fitting/judge/next_steps.h"
 #include "fitting/judge/physics.h"
 #include "fitting/judge/seen.h"
+#include "fitting/judge/stated.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/judge/undetermined.h"
 #include "fitting/judge/warnings.h"
 #include "fitting/solve/order.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
+#include "optics/refractive_index.h"
+#include "table/format/wavelengths.h"
 #include "table/health/value_warnings.h"
 
 #include <tbb/task_group.h>
@@ -40,6 +43,23 @@ FitSolver solver_of(const Solution& s, std::vector<std::pair<std::string, double
           s.cost_per_iteration,
           std::string(kernels<double>().instruction_set),
           std::move(phase_ms)};
+}
+
+/// A metal that is held is so at the wavelengths of the channels, where these are such; else at those that stand for r, g and b.
+FitOptions at_wavelengths(FitOptions o, const Table& t) {
+  const auto metal = std::ranges::find(o.fixed, "metal", &Setting::name);
+  if (metal == o.fixed.end()) return o;
+  const Material* material = find_metal(metal->text);
+  const auto nm = wavelengths_of(t);
+  if (!material || nm.empty()) return o;
+  Setting eta{"eta", {}}, k{"k", {}};
+  for (const double w : nm) {
+    eta.values.push_back(material->at(w).n);
+    k.values.push_back(material->at(w).k);
+  }
+  o.fixed.erase(metal);
+  o.fixed.insert(o.fixed.end(), {std::move(eta), std::move(k)});
+  return o;
 }
 
 /// Leaves out the changes of values that are not known.
@@ -86,12 +106,16 @@ struct Judged {
   std::size_t clusters;  ///< those whose values share their errors; 0: all are independent
   const char* in_words;
 };
-Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
+/// \param stated  whether the residuals are in standard errors that the table states
+Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) {
   const auto asked =
       p.options.intervals == Intervals::bootstrap ? Intervals::automatic : p.options.intervals;
   const auto x = p.free.of(f.model.values);
   const auto errors = [&](const Assessment& a) {
     return uncertainty(a.sandwich, x, p.bounds, a.counts.samples);
+  };
+  const auto of_values = [&](const Assessment& a) {
+    return uncertainty(a.sandwich, x, p.bounds, a.counts.samples, stated);
   };
   const auto by_value = [&] {
     const bool clips = p.options.robust;  // then not all that was fitted is in the bread
@@ -101,11 +125,11 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
     const Influences influences(bread, find_determined(bread, x, p.bounds).unknowns);
     return assess(s, f.model, p.free, f.huber, false, &influences, f.in_float);
   };
-  constexpr const char* independent = "independent values";
+  const char* const independent = stated ? "stated uncertainties" : "independent values";
   constexpr const char* clustered = "clustered by incident angle";
   if (asked == Intervals::independent || (asked == Intervals::automatic && s.table().truth)) {
     auto a = by_value();
-    const auto u = errors(a);
+    const auto u = of_values(a);
     return {std::move(a), u, u.std_error, 0, 0, independent};
   }
   auto a = assess(s, f.model, p.free, f.huber, true, nullptr, f.in_float);
@@ -115,11 +139,15 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f) {
   auto u = errors(a);
   if (asked == Intervals::by_angle || enough_angles(angles))
     return {std::move(a), u, u.std_error, angles, angles, clustered};
-  const auto values = errors(by_value());
+  const auto values = of_values(by_value());
   if (angles < 2) return {std::move(a), values, values.std_error, angles, 0, independent};
-  return {std::move(a),     wider(std::move(u), values),
-          values.std_error, angles,
-          angles,           "the wider of clustered by incident angle and independent values"};
+  return {std::move(a),
+          wider(std::move(u), values),
+          values.std_error,
+          angles,
+          angles,
+          stated ? "the wider of clustered by incident angle and stated uncertainties"
+                 : "the wider of clustered by incident angle and independent values"};
 }
 
 /// \param tries  whether other models are tried, for `next`
@@ -128,7 +156,7 @@ FitResult fit_and_judge(const Table& t,
                         SharedColumns& columns,
                         const std::function<void(const char*)>& phase,
                         bool tries) {
-  const FitOptions o = expanded(given);
+  const FitOptions o = at_wavelengths(expanded(given), t);
   const auto announce = [&](const char* what) {
     if (phase) phase(what);
   };
@@ -160,7 +188,8 @@ FitResult fit_and_judge(const Table& t,
       const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
       sensitivity = bin_sensitivity(p, found.scanned, sampling_of(other, folded), other, f);
     });
-  const Judged judged = judge(sampling, p, f);
+  const auto beside = beside_stated(sampling, p, f.solution.at.cost, f.values);
+  const Judged judged = judge(sampling, p, f, beside && beside->holds);
   const Assessment& a = judged.assessment;
   Uncertainty u = judged.uncertainty;
   watch.lap("errors_ms");
@@ -194,6 +223,8 @@ FitResult fit_and_judge(const Table& t,
   d.intervals = in_words;
   d.clusters = judged.clusters;
   d.residuals = a.residuals;
+  if (beside) d.residuals.chi2_per_freedom = beside->chi2_per_freedom;
+  d.uncertainty = t.errors.empty() ? "none" : "stated";
   d.misfit = lack.misfit;
   d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");
@@ -219,6 +250,7 @@ FitResult fit_and_judge(const Table& t,
     facts.no_f = facts.no_f || w.of_unit;
     d.warnings.push_back(std::move(w.text));
   }
+  facts.beyond_stated = beside && !beside->holds;
   facts = with_table(std::move(facts), o, table, d);
   for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));
   if (tries) announce("trying other models");

@@ -16,7 +16,7 @@ void let_interrupt_at(const std::string&) {
 /// A table in memory as it is fitted.
 Table masked(Table t, const HowFitted& how) {
   if (how.bins) throw wrong_usage("bins: of a file; a table that was read has its own");
-  if (how.mask) leave_out(t, *how.mask);
+  take(t, how.measured);
   return t;
 }
 
@@ -53,7 +53,7 @@ std::string compare_path(const std::string& path,
                          int jobs) {
   const Jobs threads(jobs);
   TableAndDigest in(path, how.bins);
-  if (how.mask) leave_out(in.table, *how.mask);
+  take(in.table, how.measured);
   in.table.path = path;
   return compare(in.table, how.options, models, [&] { in.finish(); });
 }

@@ -86,8 +86,11 @@ void print(const FitDocument& d) {
       else
         say_below(fmt::format("{:<13} {:<27} ", name, value), status);
     }
-  say_below("", fmt::format("log RMS {:.4g}, RMS {:.4g} 1/sr; standard errors: {}",
-                            d.residuals.log_rms, d.residuals.rms, d.intervals));
+  const auto& chi2 = d.residuals.chi2_per_freedom;
+  say_below("", fmt::format("log RMS {:.4g}, RMS {:.4g} 1/sr{}; standard errors: {}",
+                            d.residuals.log_rms, d.residuals.rms,
+                            chi2 ? fmt::format(", χ² per degree of freedom {:.3g}", *chi2) : "",
+                            d.intervals));
   for (const auto& s : d.sensitivity) {
     std::string changes;
     for (const auto& [name, change] : s.relative_change) {
@@ -218,7 +221,7 @@ Exit run_models(const FitCall& o) {
   progress("reading " + o.files[0]);
   TableAndDigest in = read_files(files, o.how.bins);
   Table& table = in.table;
-  if (o.how.mask) leave_out(table, *o.how.mask);
+  take(table, o.how.measured);
   ModelChoice choice =
       compare_models(table, o.how.options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));

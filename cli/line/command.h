@@ -53,7 +53,6 @@ inline constexpr const char* spec_or_fit = "Model, or the fit.json of a fit";
 void add_set(Command&, std::vector<std::string>& words);
 /// --bins centre|edge
 void add_bins(Command&, std::optional<Bins>&);
-void add_mask(Command&, std::optional<std::string>&);
 /// Two whole numbers of a word: "3,4"; "5" is 5,5 where one stands for both.
 /// \throws Error  wrong usage, of a word that is none or numbers outside [low, high]
 std::array<std::size_t, 2> two_numbers(const std::string& word,

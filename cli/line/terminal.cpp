@@ -14,7 +14,6 @@
 #include "base/numbers.h"
 #include "cli/line/command.h"
 #include "table/format/metadata.h"
-#include "table/sample_mask.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -173,10 +172,6 @@ void add_set(Command& c, std::vector<std::string>& words) {
 void add_bins(Command& c, std::optional<Bins>& bins) {
   c.option("--bins", bins,
            "Where a sample sits in its bin: centre or edge (default: as the file says, or centre)");
-}
-
-void add_mask(Command& c, std::optional<std::string>& mask) {
-  c.option("--mask", mask, mask_in_words);
 }
 
 std::array<std::size_t, 2> two_numbers(const std::string& word,

@@ -8,7 +8,7 @@
 #include "fitting/solve/problem.h"
 #include "reports/own/audit_file.h"
 #include "table/format/formats.h"
-#include "table/sample_mask.h"
+#include "table/format/measured_by.h"
 
 #include <fmt/format.h>
 
@@ -20,7 +20,7 @@ struct CompareCall : Common {
   std::vector<std::string> set, domain;
   ReadingWords reading;
   std::optional<Bins> bins;
-  std::optional<std::string> mask;
+  AsMeasured measured;
 };
 
 void print(std::size_t values, const FitResiduals& r) {
@@ -33,8 +33,9 @@ void print(std::size_t values, const FitResiduals& r) {
 }
 
 Exit run_terms(const CompareCall& o) {
-  if (!o.set.empty() || o.bins || o.mask)
-    throw wrong_usage("--set, --bins and --mask go with a table, not with two terms");
+  if (!o.set.empty() || o.bins || o.measured.mask || o.measured.aperture || o.measured.reference)
+    throw wrong_usage(
+        "--set, --bins, --mask, --aperture and --reference go with a table, not with two terms");
   std::vector<std::pair<std::string, Range>> domain;
   for (const auto& s : parse_settings(o.domain)) {
     if (s.values.size() != 2)
@@ -59,7 +60,7 @@ Exit run(const CompareCall& o) {
   Progress progress(o.quiet);
   progress("reading " + o.file);
   Table t = read_table(o.file, o.bins);
-  if (o.mask) leave_out(t, *o.mask);
+  take(t, o.measured);
   const BoundModel m =
       model_argument(read_as(o.model, o.reading), parse_settings(o.set), t.channels.size()).model;
   check_azimuths(t, m.model);
@@ -89,7 +90,7 @@ void add_compare(CommandLine& line) {
   add_reading(c, o->reading);
   c.option("--domain", o->domain, "Of two terms: NAME=LOW,HIGH of their parameters").at_most(64);
   add_bins(c, o->bins);
-  add_mask(c, o->mask);
+  c.options(o->measured);
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -3,13 +3,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <utility>
 
 #include "base/text.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "table/format/formats.h"
+#include "table/format/measured_by.h"
 #include "table/format/metadata.h"
-#include "table/sample_mask.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -20,9 +21,9 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 struct ConvertCall : Common {
-  std::string input, output, channels;
+  std::string input, output;
   std::optional<Bins> bins;
-  std::optional<std::string> mask;
+  AsMeasured measured;
   ConvertOptions convert;
 };
 
@@ -163,12 +164,14 @@ Exit run(const ConvertCall& o) {
   use(o);
   ConvertOptions options = o.convert;
   options.format = format_of(o);
-  if (!o.channels.empty()) options.channels = split(o.channels, ',');
+  AsMeasured measured = o.measured;
+  for (const auto& words : std::exchange(measured.channels, {}))
+    for (auto& name : split(words, ',')) options.channels.push_back(std::move(name));
   check_outputs({o.input}, {o.output, side_path(o.output)});
   Progress progress(o.quiet);
   progress("reading " + o.input);
   Table from = read_table(o.input, o.bins);
-  if (o.mask) leave_out(from, *o.mask);
+  take(from, measured);
   progress("converting");
   const Conversion c = convert(from, options);
   progress("writing " + o.output);
@@ -194,9 +197,8 @@ void add_convert(CommandLine& line) {
            "being "
            "merl, .bin utia and .bsdf rgl")
       .one_of({"merl", "mbsdf", "utia", "csv", "exr", "rgl", "zemax"});
-  c.option("--channels", o->channels, "Which, in this order: NAME,NAME,…");
   add_bins(c, o->bins);
-  add_mask(c, o->mask);
+  c.options(o->measured);
   c.option("--to-bins", o->convert.bins, "Where a sample sits in OUT's bins (default: as in IN)");
   c.option("--theta", o->convert.n_theta,
            "Bins of theta_i and theta_o (mbsdf; default 45), or incident angles (rgl; default 32)")

@@ -9,8 +9,8 @@
 #include "reports/pages/inspect_page.h"
 #include "table/format/as_one.h"
 #include "table/format/formats.h"
+#include "table/format/measured_by.h"
 #include "table/health/health.h"
-#include "table/sample_mask.h"
 
 #include <fmt/format.h>
 
@@ -21,7 +21,7 @@ struct InspectCall : Common {
   std::vector<std::string> files;
   std::string html;
   std::optional<Bins> bins;
-  std::optional<std::string> mask;
+  AsMeasured measured;
   std::optional<std::string> model;
   std::optional<std::size_t> plan_next;
 };
@@ -51,6 +51,12 @@ void print(const Table& t, const Health& h) {
       line("left out", text);
     else if (key == "agreement" || key.starts_with("TIS"))
       line(key.c_str(), text);
+  if (t.aperture)
+    line("aperture", fmt::format("light {:.3g}°, detector {:.3g}°: values are means over both",
+                                 t.aperture.light / degree, t.aperture.detector / degree));
+  if (!t.errors.empty())
+    line("uncertainty",
+         fmt::format("stated, typically {} of a value", percent(typical_uncertainty(t))));
   line("range", fmt::format("{:.4g} to {:.4g} 1/sr", h.smallest_positive, h.largest));
   if (h.noise_floor > 0)
     line("noise floor", fmt::format("{:.3g} 1/sr, from the negative values", h.noise_floor));
@@ -125,7 +131,7 @@ Exit run(const InspectCall& o) {
   Progress progress(o.quiet);
   progress("reading " + o.files[0]);
   Table t = o.files.size() > 1 ? read_as_one(o.files, o.bins) : read_table(o.files[0], o.bins);
-  if (o.mask) leave_out(t, *o.mask);
+  take(t, o.measured);
   progress("inspecting");
   const Health h = inspect(t);
   FitOptions fit;
@@ -167,7 +173,7 @@ void add_inspect(CommandLine& line) {
   c.option("--model", o->model,
            "Model that --plan-next fits; else that of gonio fit: " + FitOptions().model);
   add_bins(c, o->bins);
-  add_mask(c, o->mask);
+  c.options(o->measured);
   add_jobs(c, *o);
   add_output(c, *o);
 }

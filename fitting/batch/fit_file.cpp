@@ -15,7 +15,7 @@ FittedFile fit_files(const std::vector<std::string>& paths,
   say("reading " + (paths.size() == 1 ? paths[0] : counted(paths.size(), "file")));
   const Stopwatch begin;
   TableAndDigest in = read_files(paths, how.bins);
-  if (how.mask) leave_out(in.table, *how.mask);
+  take(in.table, how.measured);
   const double load_ms = begin.ms();
   FitResult result = fit(in.table, how.options, say);
   const Stopwatch since_fitted;

@@ -10,7 +10,7 @@
 #include "base/describe.h"
 #include "fitting/fit.h"
 #include "fitting/solve/options.h"
-#include "table/sample_mask.h"
+#include "table/format/measured_by.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -19,14 +19,14 @@ namespace gonio {
 struct HowFitted {
   FitOptions options{.certificate = Certify::automatic};
   std::optional<Bins> bins = {};
-  std::optional<std::string> mask = {};
+  AsMeasured measured = {};
 };
 template <>
 inline constexpr auto description<HowFitted> = std::tuple{
     inlined(&HowFitted::options),
     Field{"bins", &HowFitted::bins,
           "where a sample sits in its bin: centre or edge (default: as the file says, or centre)"},
-    Field{"mask", &HowFitted::mask, mask_in_words}};
+    inlined(&HowFitted::measured)};
 static_assert(describes_every_member<HowFitted>());
 
 struct FittedFile {

@@ -4,9 +4,30 @@
 #include <cmath>
 
 #include "brdf/model/evaluate.h"
+#include "brdf/model/mean_block.h"
 #include "fitting/sample/incident_angles.h"
 
 namespace gonio {
+
+namespace {
+
+/// f of the samples, which are means where the block says so.
+void evaluate_at(Evaluator<double>& evaluate,
+                 const SampleBlock<double>& x,
+                 std::span<double* const> out) {
+  if (!x.mean) return evaluate(x, out);
+  for (double* f : out) std::fill_n(f, x.n, 0.0);
+  std::vector<Column<double>> of_angles;
+  std::vector<double*> to;
+  for (std::size_t c = 0; c < out.size(); ++c)
+    to.push_back(of_angles.emplace_back(Column<double>(BlockReader<double>::block)).data());
+  for_parts(x, BlockReader<double>::block, [&](const Block<double>& angles, const auto& add) {
+    evaluate(angles, to);
+    for (std::size_t c = 0; c < out.size(); ++c) add(to[c], out[c]);
+  });
+}
+
+}  // namespace
 
 double LogResiduals::rms() const {
   return std::sqrt(squares / values);
@@ -27,7 +48,7 @@ ResidualsByAngle log_residuals(const Sampling& s, const BoundModel& model, std::
   for (std::size_t k = 0; k < tasks.count; ++k) {
     BlockReader<double> in(s, tasks.first(k), tasks.last(k), tasks.step);
     while (in.next()) {
-      evaluate(in.angles(), out);
+      evaluate_at(evaluate, in.angles(), out);
       for (std::size_t m = 0; m < members; ++m)
         for (std::size_t c = 0; c < s.channels(); ++c) {
           const auto& data = in.values(m, c);

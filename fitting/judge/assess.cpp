@@ -76,7 +76,7 @@ class Walk {
         influences_(keys ? nullptr : influences),
         kernels_(kernels<F>()),
         values_(b.values.begin(), b.values.end()),
-        derivatives_(b.model, free.mask(), kernels_) {
+        derivatives_(b.model, free.mask(), kernels_, nullptr, s.aperture() != nullptr) {
     derivatives_.set(values_);
     for (auto* x : {&link_, &link_slope_, &log_f_, &log_y_, &unused_, &score_, &slope_})
       *x = derivatives_.fresh();

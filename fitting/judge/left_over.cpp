@@ -82,7 +82,8 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
   const std::size_t stride = (s.channels() + most_channels - 1) / most_channels;
   const std::size_t looked_at = (s.channels() + stride - 1) / stride;
   Left all;
-  ModelDerivatives<double> model(f.model.model, p.free.mask(), kernels<double>());
+  ModelDerivatives<double> model(f.model.model, p.free.mask(), kernels<double>(), nullptr,
+                                 s.aperture() != nullptr);
   model.set(f.model.values);
   double *const link = model.fresh(), *const slope = model.fresh();
 

@@ -22,7 +22,8 @@ std::vector<AlbedoSample> albedo_of(TableFacts& facts) {
 /// Greatest values of the model over those of the data, by channel, of the values that are compared.
 std::vector<double> peak_ratio(const BoundModel& b, const FitData<double>& thin) {
   const std::vector<bool> none_free(b.model.value_count, false);
-  ModelDerivatives<double> model(b.model, none_free, kernels<double>());
+  ModelDerivatives<double> model(b.model, none_free, kernels<double>(), nullptr,
+                                 thin.aperture != nullptr);
   model.set(b.values);
   std::vector<double> of_model(b.model.channels), of_data(b.model.channels);
   for (const auto& task : thin.tasks)

@@ -59,6 +59,14 @@ void keep_to_what_is_seen(TableFacts& facts,
   if (value >= 0.1 && !(low < 0.1)) return;
   using enum ParameterStatus;
   if (u.status[i] != free && u.status[i] != at_bound && u.status[i] != unbounded) return;
+  if (p.aperture) {  // the samples say how wide it is, though it lies between them
+    constexpr double known = 1.0 / 32;  // of both widths: an eighth of how far h turns
+    const double least = known * (t.aperture.light + t.aperture.detector);
+    if (value < least)
+      u.keep_limit(i, upper_limit, least,
+                   "the lobe is narrower than an eighth of what the instrument sees at once");
+    return;
+  }
   const auto peak = facts.peak().peak;
   if (!peak || peak->resolved) return;
   u.keep_limit(i, upper_limit, peak->alpha, "the samples do not resolve the highlight");

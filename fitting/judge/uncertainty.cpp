@@ -256,7 +256,8 @@ Determined find_determined(const ArrowMatrix& bread,
 Uncertainty uncertainty(const Sandwich& s,
                         std::span<const double> x,
                         const Bounds& bounds,
-                        double samples_used) {
+                        double samples_used,
+                        bool stated) {
   const std::size_t n = x.size();
   Determined found = find_determined(s.bread, x, bounds);
   const auto& determined = found.unknowns;
@@ -277,21 +278,24 @@ Uncertainty uncertainty(const Sandwich& s,
                                     ? Covariance(s, determined, layout, bread, samples_used)
                                     : Covariance(s, determined, layout, bread);
   std::vector<double> variance;
-  for (std::size_t a = 0; a < determined.size(); ++a) variance.push_back(covariance(a, a));
+  const auto covariance_of = [&](std::size_t a, std::size_t b) {
+    return stated ? bread(a, b) : covariance(a, b);
+  };
+  for (std::size_t a = 0; a < determined.size(); ++a) variance.push_back(covariance_of(a, a));
 
   for (std::size_t a = 0; a < determined.size(); ++a) {
     const std::size_t i = determined[a];
-    if (std::isnan(covariance.freedom(a)) || samples_used <= unknowns) {
+    if (!stated && (std::isnan(covariance.freedom(a)) || samples_used <= unknowns)) {
       u.reason[i] = samples_used <= unknowns ? "no more values than unknowns"
                     : s.clusters.empty()
                         ? "one value alone determines it: no interval holds"
                         : "one incident angle alone determines it: no interval holds";
       continue;
     }
-    u.freedom[i] = covariance.freedom(a);
+    constexpr double many = 1e9;
+    u.freedom[i] = stated ? many : covariance.freedom(a);
     u.variance[i] = variance[a] / bread(a, a);
-    const double error = std::sqrt(variance[a]),
-                 t = students_t_quantile(0.975, covariance.freedom(a));
+    const double error = std::sqrt(variance[a]), t = students_t_quantile(0.975, u.freedom[i]);
     if (2 * t * error >= bounds.high[i] - bounds.low[i]) {
       u.forget(i, "its interval is as wide as its range");
       continue;
@@ -301,7 +305,7 @@ Uncertainty uncertainty(const Sandwich& s,
   }
   const auto correlation = [&](std::size_t a, std::size_t b) {
     if (std::isnan(u.std_error[determined[a]])) return not_known;
-    return covariance(a, b) / std::sqrt(variance[a] * variance[b]);
+    return covariance_of(a, b) / std::sqrt(variance[a] * variance[b]);
   };
   if (!u.correlated.empty()) {
     for (std::size_t a = 0; a < determined.size(); ++a)

@@ -63,10 +63,13 @@ struct Uncertainty {
 ///
 /// An unknown that a single value or cluster determines alone has no error: none of the others knows it.
 /// Nor has one whose interval would be as wide as its range, which is not identifiable.
+///
+/// \param stated  the residuals are in known standard errors: then the errors are those of B⁻¹, whose half width is 1.96
 Uncertainty uncertainty(const Sandwich&,
                         std::span<const double> x,
                         const Bounds&,
-                        double samples_used);
+                        double samples_used,
+                        bool stated = false);
 
 /// The one of two that has the wider interval, parameter by parameter; none where one has none.
 Uncertainty wider(Uncertainty, const Uncertainty&);

@@ -69,7 +69,7 @@ FitFacts with_table(FitFacts f, const FitOptions& o, TableFacts& table, const Fi
     return is_alpha(p.name) && p.status[0] != ParameterStatus::fixed &&
            (p.value[0] < 0.1 || p.limit[0] < 0.1);
   };
-  if (std::ranges::any_of(d.parameters, narrow)) {
+  if (!t.aperture && std::ranges::any_of(d.parameters, narrow)) {
     f.unresolved = table.peak().peak;
     if (f.unresolved && f.unresolved->resolved) f.unresolved.reset();
   }
@@ -83,6 +83,16 @@ std::vector<std::string> warnings(const FitOptions& o,
   std::vector<std::string> all;
   for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
+  if (const auto& chi2 = d.residuals.chi2_per_freedom; chi2 && f.beyond_stated)
+    all.push_back(fmt::format("what is left is {:.2g} times the stated uncertainties: {}",
+                              std::sqrt(*chi2),
+                              d.misfit.told ? "the model misses the table, or they are too small"
+                                            : "they are too small for the scatter"));
+  else if (chi2 && *chi2 < 0.25)
+    all.push_back(
+        fmt::format("what is left is {:.2g} times the stated uncertainties: they are too large, or "
+                    "hold what all values share",
+                    std::sqrt(*chi2)));
   if (d.values_used <= f.free)
     all.push_back(fmt::format("{} cannot tell the errors of {}", counted(d.values_used, "value"),
                               counted(f.free, "unknown")));

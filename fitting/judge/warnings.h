@@ -22,10 +22,11 @@ struct FitFacts {
   std::size_t angles = 0;  ///< incident angles of the table, where they were counted
   std::size_t free = 0;    ///< unknowns
   double cost_of_fewer = std::numeric_limits<double>::infinity();  ///< of the model less one lobe
-  bool needless = false;    ///< whether the diffuse terms alone do as well
-  bool no_f = false;        ///< whether values are of another unit, or have a cosine left in
-  bool few_angles = false;  ///< whether they are too few for errors that an angle's values share
-  bool copies = false;      ///< whether angles of the table only repeat another
+  bool needless = false;       ///< whether the diffuse terms alone do as well
+  bool no_f = false;           ///< whether values are of another unit, or have a cosine left in
+  bool few_angles = false;     ///< whether they are too few for errors that an angle's values share
+  bool beyond_stated = false;  ///< whether what is left is more than the table's own uncertainties
+  bool copies = false;         ///< whether angles of the table only repeat another
   std::optional<Peak> retro = {};  ///< the highlight, where it is at wo = wi
   std::optional<Peak> unresolved =
       {};  ///< that of a narrow lobe, where the samples do not resolve it

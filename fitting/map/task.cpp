@@ -186,6 +186,9 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
     throw wrong_usage(fmt::format("{} channels: a map has 1 or 3", channels));
   if (!(o.offset >= 0) || !std::isfinite(o.offset))
     throw wrong_usage(fmt::format("offset = {}, expected a number from 0 on", o.offset));
+  if (o.metric == Metric::uncertainty)
+    throw wrong_usage(
+        "metric uncertainty is of tables that state one of each value; images state none");
   if (o.offset > 0 && o.metric == Metric::l2_cosine)
     throw wrong_usage("offset goes with the metrics log and relative, not with l2_cosine");
   if (o.refine_normals && turns())

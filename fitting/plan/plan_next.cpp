@@ -16,6 +16,7 @@
 #include "fitting/plan/candidates.h"
 #include "fitting/plan/forecast.h"
 #include "fitting/solve/problem.h"
+#include "integrate/aperture/mean_values.h"
 
 #include <fmt/format.h>
 
@@ -90,7 +91,8 @@ std::vector<SampleRows> rows_of(const Sampling& s,
                                 double noise) {
   std::vector<Index> column(p.free.size(), -1);
   for (std::size_t k = 0; k < unknowns.size(); ++k) column[unknowns[k].free] = index(k);
-  ModelDerivatives<double> derivatives(model.model, p.free.mask(), kernels<double>());
+  ModelDerivatives<double> derivatives(model.model, p.free.mask(), kernels<double>(), nullptr,
+                                       s.aperture() != nullptr);
   derivatives.set(model.values);
   double *const link = derivatives.fresh(), *const slope = derivatives.fresh();
   const auto& link_kernel = kernels<double>().link[static_cast<std::size_t>(link_of(s.metric()))];
@@ -126,13 +128,15 @@ std::vector<SampleRows> rows_of(const Sampling& s,
 Table as_measured(const DirectionList& where, const BoundModel& model, const Table& like) {
   Table t;
   t.channels = like.channels;
+  t.aperture = like.aperture;
   t.where = where;
   const std::size_t n = where.theta_i_deg.size();
   t.values.assign(t.channels.size(), Values(n));
   const SampleAngles at(t);
   std::vector<Angles<double>> angles;
   for (std::size_t i = 0; i < n; ++i) angles.push_back(at(i));
-  const auto f = evaluate(model, angles);
+  const auto seen = aperture_angles(t, t.bins(), model.model.anisotropic);
+  const auto f = seen ? mean_values(model, *seen, 0, n) : evaluate(model, angles);
   for (std::size_t c = 0; c < f.size(); ++c) std::ranges::copy(f[c], t.values[c].begin());
   return t;
 }

@@ -62,6 +62,7 @@ struct ResidualBand {
 struct FitResiduals {
   double rms = 0, log_rms = 0;
   std::vector<ResidualBand> bands;
+  std::optional<double> chi2_per_freedom = {};  ///< where the table states uncertainties
 };
 
 /// Change of the parameters if the samples sat at the other place in their bins.
@@ -139,7 +140,8 @@ struct FitDocument {
   FitSolver solver;
 
   std::string input_path, input_sha256, input_format;
-  std::string bins;  ///< "centre", "edge" or "none"
+  std::string bins;                  ///< "centre", "edge" or "none"
+  std::string uncertainty = "none";  ///< or "stated", of each value
   std::size_t values_used = 0;
   std::map<std::string, std::size_t> masked;  ///< values left out, by reason
   std::vector<BinSensitivity> sensitivity;    ///< empty where there are no bins

@@ -42,7 +42,9 @@ template <>
 inline constexpr auto description<FitResiduals> = std::tuple{
     Field{"rms", "1/sr", &FitResiduals::rms, "RMS of f − y"},
     Field{"log_rms", &FitResiduals::log_rms, "RMS of ln f − ln y, where both are positive"},
-    Field{"bands", &FitResiduals::bands, "RMS by bands of angles"}};
+    Field{"bands", &FitResiduals::bands, "RMS by bands of angles"},
+    Field{"chi2_per_freedom", if_there(&FitResiduals::chi2_per_freedom),
+          "Σ ((f − y)/u)² over values less unknowns, where the table states uncertainties u"}};
 
 template <>
 inline constexpr auto description<FitSolver> =
@@ -142,6 +144,7 @@ inline constexpr auto description<FitDocument> = std::tuple{
           Field{"sha256", &FitDocument::input_sha256, "of the file's bytes"},
           Field{"format", &FitDocument::input_format, ""},
           Field{"bins", &FitDocument::bins, "centre, edge or none"},
+          Field{"uncertainty", &FitDocument::uncertainty, "of the values: stated or none"},
           Field{"values_used", &FitDocument::values_used, ""},
           Field{"masked", &FitDocument::masked, "values left out, by reason"}},
     Field{"bin_sensitivity", &FitDocument::sensitivity, "empty where there are no bins"},

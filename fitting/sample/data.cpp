@@ -48,6 +48,16 @@ double fold(const BlockReader<F>& in,
   return std::accumulate(rest.begin(), rest.end(), 0.0);
 }
 
+/// What the block's samples are means over, by their numbers in its last column.
+template <class F>
+void find_means(const FitData<F>& d, std::size_t samples, FitBlock<F>& b) {
+  if (!d.aperture) return;
+  std::vector<std::size_t> number(samples);
+  for (std::size_t i = 0; i < samples; ++i)
+    number[i] = static_cast<std::size_t>(b.columns[(b.columns_count - 1) * b.n + i]);
+  b.means = std::make_shared<const MeanColumns<F>>(*d.aperture, number, b.n, d.angle_columns > 5);
+}
+
 /// Blocks that so many groups fill.
 template <class F>
 constexpr std::size_t blocks_of(std::size_t groups) {
@@ -94,6 +104,7 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
   all.link = link_of(s.metric());
   all.offset = static_cast<F>(s.link_offset());
   all.angle_columns = s.angle_columns();
+  all.aperture = s.aperture();
   std::size_t blocks = 0;
   for (std::size_t k = 0; k < tasks.count; ++k) blocks += blocks_of<F>(tasks.groups(k));
   all.reserve(tasks.count, blocks, s.channels());
@@ -104,11 +115,11 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
     // tasks begin at different places
     for (const std::size_t step : steps)
       part.levels.emplace_back(step, (7 * k + step - 1) % step, tasks.groups(k),
-                               s.angle_columns() + 2 * s.channels());
+                               all.columns(s.channels()));
     std::array<std::uint32_t, BlockReader<F>::block> with_value;
     std::array<F, BlockReader<F>::block> largest;  // weight of each group over the channels
     while (in.next()) {
-      const FitBlock<F>& b = all.add_block(k, in.size());
+      FitBlock<F>& b = all.add_block(k, in.size());
       const auto x = in.angles();
       std::size_t at = 0;
       const auto copy = [&](const F* angle) {
@@ -116,6 +127,12 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
       };
       for (const F* angle : {x.nol, x.nov, x.noh, x.voh, x.sin2_theta_h}) copy(angle);
       std::ranges::for_each(x.frame, copy);
+      if (all.aperture) {
+        F* const number = b.columns + (b.columns_count - 1) * b.n;
+        std::fill_n(number, b.n, F(0));
+        for (std::size_t i = 0; i < in.size(); ++i) number[i] = static_cast<F>(in.sample(0)[i]);
+        b.means = in.means();
+      }
       for (std::size_t c = 0; c < s.channels(); ++c)
         part.rest += fold(in, c, s.groups().widest(), b);
       largest.fill(0);
@@ -153,21 +170,23 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
 template <class F>
 FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::vector<F>& rows) {
   constexpr std::size_t block = BlockReader<F>::block, task = Tasks::blocks * block;
-  const std::size_t columns = all.angle_columns + 2 * channels;
+  const std::size_t columns = all.columns(channels);
   FitData<F> d;
   d.angle_columns = all.angle_columns;
+  d.aperture = all.aperture;
   d.link = all.link;
   d.offset = all.offset;
   d.groups = rows.size() / columns;
   d.reserve((d.groups + task - 1) / task, blocks_of<F>(d.groups), channels);
   for (std::size_t at = 0; at < d.groups; at += block) {
     const std::size_t n = std::min(block, d.groups - at);
-    const auto& b = d.add_block(at / task, n);
+    auto& b = d.add_block(at / task, n);
     for (std::size_t k = 0; k < columns; ++k) {
       F* const to = b.columns + k * b.n;
       for (std::size_t i = 0; i < n; ++i) to[i] = rows[(at + i) * columns + k];
       std::fill(to + n, to + b.n, k < all.angle_columns ? F(0.5) : F(0));
     }
+    find_means(d, n, b);
     for (std::size_t c = 0; c < channels; ++c)
       d.counts.used += static_cast<std::size_t>(
           std::count_if(b.weight(c), b.weight(c) + b.n, [](F w) { return w > 0; }));
@@ -176,16 +195,17 @@ FitData<F> picked_from(const FitData<F>& all, std::size_t channels, const std::v
 }
 
 template <class F>
-Block<F> FitBlock<F>::angles() const {
+SampleBlock<F> FitBlock<F>::angles() const {
   const F* const x = columns;
-  Block<F> b{x, x + n, x + 2 * n, x + 3 * n, x + 4 * n, n};
+  SampleBlock<F> b{{x, x + n, x + 2 * n, x + 3 * n, x + 4 * n, n},
+                   means ? &means->block() : nullptr};
   for (std::size_t k = 5; k < angle_columns; ++k) b.frame[k - 5] = x + k * n;
   return b;
 }
 
 template <class F>
 void FitData<F>::reserve(std::size_t count, std::size_t blocks, std::size_t channels) {
-  columns_count_ = angle_columns + 2 * channels;
+  columns_count_ = columns(channels);
   used_ = 0;
   tasks.resize(count);
   for (auto& t : tasks) t.reserve(Tasks::blocks);
@@ -198,7 +218,7 @@ FitBlock<F>& FitData<F>::add_block(std::size_t task, std::size_t n) {
   // Side by side as they come, whatever their task: those below the horizon take no memory.
   const std::size_t at = std::atomic_ref(used_).fetch_add(1, std::memory_order_relaxed);
   return tasks[task].emplace_back(FitBlock<F>{(n + padding - 1) / padding * padding, angle_columns,
-                                              columns_count_, memory.data() + at * full});
+                                              columns_count_, memory.data() + at * full, nullptr});
 }
 
 template <class F>
@@ -223,6 +243,7 @@ FitData<double> in_double(const FitData<F>& from) {
   to.groups = from.groups;
   to.counts = from.counts;
   to.angle_columns = from.angle_columns;
+  to.aperture = from.aperture;
   std::size_t blocks = 0;
   for (const auto& t : from.tasks) blocks += t.size();
   to.reserve(from.tasks.size(), blocks,
@@ -230,8 +251,11 @@ FitData<double> in_double(const FitData<F>& from) {
                  ? 0
                  : (from.tasks[0][0].columns_count - from.angle_columns) / 2);
   for (std::size_t k = 0; k < from.tasks.size(); ++k)
-    for (const auto& b : from.tasks[k])
-      std::copy_n(b.columns, b.columns_count * b.n, to.add_block(k, b.n).columns);
+    for (const auto& b : from.tasks[k]) {
+      auto& own = to.add_block(k, b.n);
+      std::copy_n(b.columns, b.columns_count * b.n, own.columns);
+      find_means(to, b.n, own);
+    }
   return to;
 }
 

@@ -18,8 +18,10 @@ struct FitBlock {
   std::size_t angle_columns = 5;  ///< and six more of a frame
   std::size_t columns_count = 0;  ///< those of angles, then target and weight of each channel
   F* columns = nullptr;           ///< n of each; the FitData's
+  /// Under an aperture, whose last column is the samples' numbers.
+  std::shared_ptr<const MeanColumns<F>> means;
 
-  Block<F> angles() const;
+  SampleBlock<F> angles() const;
   F* target(std::size_t channel) const { return columns + (angle_columns + 2 * channel) * n; }
   F* weight(std::size_t channel) const { return target(channel) + n; }
 };
@@ -36,6 +38,12 @@ struct FitData {
   SampleCounts counts;
 
   std::size_t angle_columns = 5;  ///< of a block
+  std::shared_ptr<const ApertureAngles>
+      aperture;  ///< what each sample is a mean over; null: one direction
+  /// Columns of a block for that many channels.
+  std::size_t columns(std::size_t channels) const {
+    return angle_columns + 2 * channels + (aperture ? 1 : 0);
+  }
 
   /// Makes room for that many blocks.
   void reserve(std::size_t tasks, std::size_t blocks, std::size_t channels);

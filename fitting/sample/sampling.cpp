@@ -8,6 +8,8 @@
 #include "base/error.h"
 #include "table/health/health.h"
 
+#include <fmt/format.h>
+
 namespace gonio {
 
 // ---- groups -------------------------------------------------------------------------------------
@@ -69,12 +71,31 @@ Groups::Groups(const Table& t, const SampleAngles& at, Bins bins, bool fold)
 
 // ---- sampling -----------------------------------------------------------------------------------
 
-Sampling::Sampling(
-    const Table& t, Bins bins, Metric metric, double offset, bool fold, bool copies, bool frame)
+std::shared_ptr<const ApertureAngles> aperture_angles(const Table& t, Bins bins, bool frame) {
+  if (!t.aperture) return nullptr;
+  constexpr std::size_t most = std::size_t{1} << 19;
+  if (t.size() > most)
+    throw bad_input(t.path, "aperture", fmt::format("{} samples", t.size()),
+                    fmt::format("at most {} of a table that is averaged over cones", most));
+  const SampleAngles at(t, bins);
+  return std::make_shared<const ApertureAngles>(
+      t.size(), [&](std::size_t i) { return at.directions(i); }, t.aperture, frame);
+}
+
+// Light and viewer exchanged are other cones: under an aperture nothing is folded.
+Sampling::Sampling(const Table& t,
+                   Bins bins,
+                   Metric metric,
+                   double offset,
+                   bool fold,
+                   bool copies,
+                   bool frame,
+                   std::shared_ptr<const ApertureAngles> aperture)
     : table_(t),
-      way_{bins, metric, metric == Metric::l2_cosine ? 0 : offset, fold, copies, frame},
+      way_{bins, metric, has_offset(metric) ? offset : 0, fold && !t.aperture, copies, frame},
       angles_(t, bins),
-      groups_(t, angles_, bins, fold),
+      groups_(t, angles_, bins, way_.fold),
+      aperture_(aperture ? std::move(aperture) : aperture_angles(t, bins, frame)),
       copied_(copies ? std::vector<bool>{} : copied_pairs(t)) {
   assert(!(frame && t.grid()));
   if (t.weights.empty()) return;
@@ -100,7 +121,7 @@ Sampling Sampling::by(Metric metric, double offset) const {
   Sampling s = *this;
   s.bulk_.reset();
   s.way_.metric = metric;
-  s.way_.offset = metric == Metric::l2_cosine ? 0 : offset;
+  s.way_.offset = has_offset(metric) ? offset : 0;
   return s;
 }
 
@@ -174,7 +195,8 @@ BlockReader<F>::BlockReader(const Sampling& s,
     angles_.push_back(Column<F>::for_overwrite(block));
   if (const BoundModel* bulk = s.metric() == Metric::relative ? s.bulk() : nullptr) {
     nothing_free_.assign(bulk->model.value_count, false);
-    bulk_ = std::make_unique<ModelDerivatives<F>>(bulk->model, nothing_free_, kernels<F>());
+    bulk_ = std::make_unique<ModelDerivatives<F>>(bulk->model, nothing_free_, kernels<F>(), nullptr,
+                                                  s.aperture() != nullptr);
     bulk_->set(std::vector<F>(bulk->values.begin(), bulk->values.end()));
   }
   for (auto& v : values_)
@@ -183,9 +205,10 @@ BlockReader<F>::BlockReader(const Sampling& s,
 }
 
 template <class F>
-Block<F> BlockReader<F>::angles() const {
-  Block<F> b{angles_[0].data(), angles_[1].data(), angles_[2].data(),
-             angles_[3].data(), angles_[4].data(), padded()};
+SampleBlock<F> BlockReader<F>::angles() const {
+  SampleBlock<F> b{{angles_[0].data(), angles_[1].data(), angles_[2].data(), angles_[3].data(),
+                    angles_[4].data(), padded()},
+                   means_ ? &means_->block() : nullptr};
   for (std::size_t k = 5; k < angles_.size(); ++k) b.frame[k - 5] = angles_[k].data();
   return b;
 }
@@ -198,6 +221,9 @@ bool BlockReader<F>::next() {
     for (auto& a : angles_) a[i] = F(0.5);
     for (auto& x : nol_) x[i] = F(0.5);
   }
+  if (sampling_.aperture())
+    means_ = std::make_shared<const MeanColumns<F>>(
+        *sampling_.aperture(), std::span(sample_[0].data(), n_), padded(), sampling_.has_frame());
   for (std::size_t m = 0; m < sampling_.groups().widest(); ++m)
     for (std::size_t c = 0; c < sampling_.channels(); ++c) fill(m, c);
   if (bulk_) limit_weights();
@@ -398,6 +424,17 @@ void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
        static_cast<F>(sampling_.offset()), metric == Metric::relative, !cosine, v.y.data(),
        v.target.data(), v.weight.data()},
       c);
+  if (const auto& errors = sampling_.table().errors; !errors.empty()) {
+    const bool log = metric == Metric::log || metric == Metric::relative,
+               alone = metric == Metric::uncertainty;
+    const auto& u = errors[channel];
+    for (std::size_t i = 0; i < n_ && (log || alone); ++i)
+      if (v.weight[i] > 0) {
+        const double y = static_cast<double>(v.y[i]), of = log ? y + sampling_.offset() : 1;
+        v.weight[i] = static_cast<F>(static_cast<double>(weight_[i]) * of / u[sample[i]] /
+                                     (metric == Metric::relative ? y + sampling_.offset() : 1));
+      }
+  }
   counts_.masked[static_cast<std::size_t>(Mask::not_finite)] += c.not_finite;
   counts_.masked[static_cast<std::size_t>(Mask::negative)] +=
       c.negative - absent_[member] - (padded() - n_);

@@ -17,6 +17,8 @@
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/derivatives.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/mean_block.h"
+#include "fitting/sample/mean_columns.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -25,17 +27,23 @@ namespace gonio {
 ///   log        ln(f + offset) − ln(y + offset)
 ///   l2_cosine  (f − y) NoL
 ///   relative   (f − y)/(y + offset)
-/// each of them w (link(f + offset) − t) with a target t and a weight w that depend on the datum.
-enum class Metric { log, l2_cosine, relative };
+///   uncertainty  (f − y)/u, of a table that states the standard uncertainty u of each value
+/// each of them w (link(f + offset) − t) with a target t and a weight w that depend on the datum.  Of a table with
+/// uncertainties log and relative count standard uncertainties, too: they are times (y + offset)/u.
+enum class Metric { log, l2_cosine, relative, uncertainty };
 template <>
-inline constexpr std::array<std::string_view, 3> names_of<Metric>{"log", "l2_cosine", "relative"};
+inline constexpr std::array<std::string_view, 4> names_of<Metric>{"log", "l2_cosine", "relative",
+                                                                  "uncertainty"};
+constexpr bool has_offset(Metric m) {
+  return m == Metric::log || m == Metric::relative;
+}
 
 constexpr Link link_of(Metric m) {
   return m == Metric::log ? Link::log : Link::identity;
 }
 /// True where a datum that is valid (≥ 0) can be used: log and relative need y + offset above `faintest`.
 constexpr bool usable(Metric m, double y, double offset) {
-  return y >= 0 && (m == Metric::l2_cosine || y + offset > static_cast<double>(faintest));
+  return y >= 0 && (!has_offset(m) || y + offset > static_cast<double>(faintest));
 }
 
 /// Samples at which every isotropic reciprocal model has one value: those that change places with
@@ -95,17 +103,20 @@ class Sampling {
  public:
   /// \param copies  whether angles that only repeat another are looked at, too
   /// \param frame   whether samples have the angles of the frame, which anisotropic models read: of a list alone
+  /// \param aperture  aperture_angles() of the table, where they are made already
   Sampling(const Table&,
            Bins,
            Metric,
            double offset,
            bool fold,
            bool copies = false,
-           bool frame = false);
+           bool frame = false,
+           std::shared_ptr<const ApertureAngles> aperture = nullptr);
   const Table& table() const { return table_; }
   const SampleAngles& angles() const { return angles_; }
   const Groups& groups() const { return groups_; }
   bool has_frame() const { return way_.frame; }
+  const std::shared_ptr<const ApertureAngles>& aperture() const { return aperture_; }
   /// Columns that the angles of a sample take.
   std::size_t angle_columns() const { return way_.frame ? 11 : 5; }
   Metric metric() const { return way_.metric; }
@@ -151,8 +162,13 @@ class Sampling {
   bool is_counted_ = false;
   std::shared_ptr<const std::vector<bool>> left_out_;  ///< [sample]; null: none is
   std::shared_ptr<const BoundModel> bulk_;
+  std::shared_ptr<const ApertureAngles> aperture_;
   std::vector<bool> copied_;  ///< [row]; empty: none is
 };
+
+/// What the samples of a table with an aperture are means over, made once for all that look at it; null where it has none.
+/// Throws bad_input where they are more than 2¹⁹.
+std::shared_ptr<const ApertureAngles> aperture_angles(const Table&, Bins, bool frame);
 
 struct SampleCounts {
   std::size_t used = 0, zero = 0, zero_weight = 0, copied = 0;
@@ -202,7 +218,9 @@ class BlockReader {
   bool next();
   std::size_t size() const { return n_; }  ///< groups; what follows up to padded() is masked
   std::size_t padded() const { return (n_ + padding - 1) / padding * padding; }
-  Block<F> angles() const;
+  SampleBlock<F> angles() const;
+  /// What the block's samples are means over; null where they are none.
+  const std::shared_ptr<const MeanColumns<F>>& means() const { return means_; }
   const Values& values(std::size_t member, std::size_t channel) const {
     return values_[member * sampling_.channels() + channel];
   }
@@ -241,6 +259,7 @@ class BlockReader {
   Column<F> stored_, weight_, ones_;
   std::unique_ptr<ModelDerivatives<F>> bulk_;  ///< where it limits the weights
   std::vector<bool> nothing_free_;
+  std::shared_ptr<const MeanColumns<F>> means_;
   SampleCounts counts_;
 };
 

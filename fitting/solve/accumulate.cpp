@@ -17,9 +17,9 @@ namespace {
 template <class F>
 class Pass {
  public:
-  Pass(const Model& m, const FreeSlots& free)
+  Pass(const Model& m, const FreeSlots& free, bool means)
       : kernels_(kernels<F>()),
-        derivatives_(m, free.mask(), kernels_),
+        derivatives_(m, free.mask(), kernels_, nullptr, means),
         link_(derivatives_.fresh()),
         link_slope_(derivatives_.fresh()),
         r_(derivatives_.fresh()),
@@ -200,7 +200,8 @@ Accumulator<F>::Accumulator(const Model& m,
       free_(free),
       huber_(static_cast<F>(std::min(huber, double{std::numeric_limits<F>::max()}))),
       passes_(new Passes{
-          tbb::enumerable_thread_specific<Pass<F>>([&m, &free] { return Pass<F>(m, free); }),
+          tbb::enumerable_thread_specific<Pass<F>>(
+              [&m, &free, means = d.aperture != nullptr] { return Pass<F>(m, free, means); }),
           FusedPass<F>(m, free)}) {}
 template <class F>
 Accumulator<F>::~Accumulator() = default;
@@ -221,7 +222,8 @@ NormalEquations Accumulator<F>::normal_equations(std::span<const double> values)
       for (const F lane : cost) e.cost += static_cast<double>(lane) / 2;
       for (std::size_t c = 0; c < model_.channels; ++c) sums[c].scatter(columns(c), n, e.h, &e.g);
     };
-    if (const auto& fused = passes_->fused; fused && huber_ == std::numeric_limits<F>::max()) {
+    if (const auto& fused = passes_->fused;
+        fused && !data_.aperture && huber_ == std::numeric_limits<F>::max()) {
       begin([&](std::size_t c) { return std::span(fused.at(c)); });
       fused.run(values, data_, data_.tasks[task], sums, cost.data());
       return collect([&](std::size_t c) { return fused.at(c); });
@@ -264,7 +266,7 @@ std::vector<double> Accumulator<F>::channel_costs(std::span<const double> values
 template <class F>
 std::vector<double> Accumulator<F>::residuals(std::span<const double> values) const {
   std::vector<double> all;
-  Pass<F> pass(model_, free_);
+  Pass<F> pass(model_, free_, data_.aperture != nullptr);
   pass.set(values);
   alignas(64) std::array<F, padding> cost{};
   for (const auto& task : data_.tasks)

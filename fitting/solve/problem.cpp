@@ -144,7 +144,12 @@ Problem pose(const Table& t, const FitOptions& o) {
         "model '{}' is anisotropic, and all light of this table comes from one azimuth: "
         "it does not say how the surface was turned",
         m.spec));
-  return pose(t.channels.size(), noise_floor(t), o);
+  if (o.metric == Metric::uncertainty && t.errors.empty())
+    throw bad_input(t.path, "metric uncertainty", "no uncertainties",
+                    "a column u_f, uBRDF, or \"uncertainty\" in the side file");
+  Problem p = pose(t.channels.size(), noise_floor(t), o);
+  p.aperture = aperture_angles(t, t.bins(), m.anisotropic);
+  return p;
 }
 
 Problem pose(std::size_t channels, double offset, const FitOptions& o) {
@@ -193,7 +198,14 @@ bool folds(const Problem& p) {
 
 Sampling sampling_for(const Problem& p, const Table& t, Bins bins, bool fold) {
   const FitOptions& o = p.options;
-  return {t, bins, o.metric, p.offset, fold, o.copies, p.start.model.anisotropic};
+  return {t,
+          bins,
+          o.metric,
+          p.offset,
+          fold,
+          o.copies,
+          p.start.model.anisotropic,
+          bins == t.bins() ? p.aperture : nullptr};
 }
 
 Problem with_free(const Problem& p, Model model, const std::vector<bool>& mask) {

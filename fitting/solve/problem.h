@@ -2,6 +2,7 @@
 /// \file
 /// Problem that a fit solves: which parameters are free, and within which bounds.
 
+#include <memory>
 #include <span>
 #include <vector>
 
@@ -19,6 +20,7 @@ struct Problem {
   Bounds bounds;               ///< of the free slots
   std::vector<bool> narrowed;  ///< of the free slots: whether the user gave the bounds
   double offset;
+  std::shared_ptr<const ApertureAngles> aperture = nullptr;  ///< of the table's own bins
   double rounding = 0;  ///< of the cost of one value in float, see SolveOptions; 0: in double alone
 };
 

@@ -173,6 +173,7 @@ Searched search_in(const Problem& p,
   announce("fitting all samples");
   f = minimise(p, data.all, f.model, f.huber);
   f.groups = data.all.groups;
+  f.values = data.all.counts.samples;
   f.in_float = std::is_same_v<F, float> && float_suffices(p, f, data.all.counts.samples);
   watch.lap("solve_ms");
   Searched found{std::move(f), std::numeric_limits<double>::infinity(), std::move(scanned), {}};
@@ -245,8 +246,10 @@ Searched search(Problem p,
   if (s.best.in_float) return s;
   announce("fitting all samples in double");
   const std::size_t groups = s.best.groups;
+  const double values = s.best.values;
   s.best = minimise(p, fit_data<double>(sampling), std::move(s.best.model), s.best.huber);
   s.best.groups = groups;
+  s.best.values = values;
   watch.lap("solve_double_ms");
   return s;
 }

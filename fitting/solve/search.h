@@ -25,6 +25,7 @@ struct Fitted {
   Solution solution;
   bool in_float = false;   ///< whether that was enough
   std::size_t groups = 0;  ///< looked at
+  double values = 0;       ///< compared, see Sampling::count_of()
 };
 
 /// Best fit of `data`, all of the problem's free values moved from where `from` has them.

@@ -28,7 +28,10 @@ inline constexpr auto description<ResidualMap> =
                Field{"theta_d_deg", "°", &ResidualMap::theta_d_deg, "edges of the bins"},
                Field{"mean", &ResidualMap::mean, "mean of ln f_model − ln f_data, theta_d fastest"},
                Field{"rms", &ResidualMap::rms, "its RMS"},
-               Field{"count", &ResidualMap::count, "number of values"}};
+               Field{"count", &ResidualMap::count, "number of values"},
+               Field{"measured", "1/sr", &ResidualMap::measured,
+                     "some of the values, evenly spread over the table"},
+               Field{"predicted", "1/sr", &ResidualMap::predicted, "the model there"}};
 
 template <>
 inline constexpr auto description<ModelSphere> = std::tuple{

@@ -103,6 +103,19 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
     }
     bands.parts.emplace_back(std::move(t));
   }
+  if (!m.measured.empty()) {
+    Figure f = make_figure("predicted", {});
+    f.title = "Predicted against measured";
+    f.note = count_text(m.measured.size()) + " values, evenly spread over the table";
+    f.x = {"table [1/sr]", true};
+    f.y = {"model [1/sr]", true};
+    f.curves.push_back({"value", m.measured, m.predicted, FigureCurve::Kind::points});
+    const auto [low, high] = std::ranges::minmax(m.measured);
+    f.curves.push_back({"equal", {low, high}, {low, high}});
+    f.curves.back().dashed = true;
+    bands.parts.emplace_back(Shown{f.family, f.choices, 260});
+    pictures.figures.push_back(std::move(f));
+  }
   return {
       "Where the model is off",
       "Each cell compares model and data by their ratio, over all channels and all valid positive "

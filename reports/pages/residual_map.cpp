@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "brdf/model/evaluate.h"
+#include "integrate/aperture/mean_values.h"
 #include "reports/pages/angle_bins.h"
 #include "table/health/health.h"
 
@@ -25,6 +26,10 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
   map.rms.assign(bins.x * bins.y, 0);
   map.count.assign(bins.x * bins.y, 0);
 
+  constexpr std::size_t most_pairs = 2000;
+  // Odd, so that of channels in turn each is met.
+  const std::size_t step = table.size() * table.values.size() / most_pairs | 1U;
+  std::size_t values = 0;
   const SampleAngles at(table);
   const auto copied = copied_pairs(table);
   constexpr std::size_t chunk = 1 << 15;  // samples whose angles and model values are held at once
@@ -35,7 +40,13 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
     for (std::size_t i = first; i < end; ++i)
       x.push_back(fitted.model.anisotropic ? at.frame(i)
                                            : FrameAngles<double>{at(i), 0, 0, 0, 0, 0, 0});
-    const auto model = evaluate(fitted, x);
+    const auto directions = [&](std::size_t i) { return at.directions(first + i); };
+    const auto model = table.aperture
+                           ? mean_values(fitted,
+                                         ApertureAngles(x.size(), directions, table.aperture,
+                                                        fitted.model.anisotropic),
+                                         0, x.size())
+                           : evaluate(fitted, x);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!(x[i].nol > 0 && x[i].nov > 0)) continue;
       if (!copied.empty() && copied[(first + i) / at.row_size()]) continue;
@@ -43,6 +54,10 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
       for (std::size_t c = 0; c < table.values.size(); ++c) {
         const double y = table.values[c][first + i], f = model[c][i];
         if (mask(x[i], y) != Mask::valid || !(y > 0) || !(f > 0) || !std::isfinite(f)) continue;
+        if (values++ % step == 0 && map.measured.size() < most_pairs) {
+          map.measured.push_back(y);
+          map.predicted.push_back(f);
+        }
         const double ratio = std::log(f / y);
         map.mean[k] += ratio;
         map.rms[k] += ratio * ratio;

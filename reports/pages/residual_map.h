@@ -15,6 +15,8 @@ struct ResidualMap {
   std::vector<double> theta_h_deg, theta_d_deg;  ///< edges, one more than there are bins
   std::vector<double> mean, rms;   ///< [h · bins of theta_d + d]; NaN where count is 0
   std::vector<std::size_t> count;  ///< values
+  /// At most 2,000 of the values, evenly spread over the table, and the model there [1/sr].
+  std::vector<double> measured, predicted;
 };
 
 ResidualMap make_residual_map(const Table&, const BoundModel& fitted);

@@ -48,6 +48,17 @@ Figure cut_figure(const gonio::Table& t, const Cut& cut, bool log) {
   f.x = {in_plane ? "θ_o [°], mirror side positive" : "θ_h [°]", false, in_plane ? -90.0 : 0, 90};
   f.y = {"f_r [1/sr]", log};
   double least = std::numeric_limits<double>::infinity(), most = 0;
+  double first = 90, last = -90;  // of the data: those of a gloss tile fill the picture
+  for (const auto& data : cut.data)
+    for (std::size_t i = 0; i < data.size(); ++i)
+      if (std::isfinite(data[i]) && (!log || data[i] > 0)) {
+        first = std::min(first, cut.deg[i]);
+        last = std::max(last, cut.deg[i]);
+      }
+  if (constexpr double narrow = 60; first < last && last - first < narrow) {
+    f.x.from = std::max(f.x.from, first - 0.1 * (last - first));
+    f.x.to = std::min(f.x.to, last + 0.1 * (last - first));
+  }
   for (const auto& data : cut.data)
     for (std::size_t i = 0; i < data.size(); ++i)
       if (std::abs(cut.deg[i]) <= scale_to_deg && std::isfinite(data[i]) && (!log || data[i] > 0)) {

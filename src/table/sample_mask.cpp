@@ -268,7 +268,8 @@ void leave_out(Table& t, std::string_view expression) {
   };
   auto& l = std::get<DirectionList>(t.where);
   for (auto* angles : {&l.theta_i_deg, &l.phi_i_deg, &l.theta_o_deg, &l.phi_o_deg}) keep(*angles);
-  for (auto& plane : t.values) keep(plane);
+  for (auto* planes : {&t.values, &t.errors})
+    for (auto& plane : *planes) keep(plane);
   keep(t.weights);
   keep(t.patches);
 }

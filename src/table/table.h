@@ -15,6 +15,7 @@
 
 #include "base/memory.h"
 #include "base/names.h"
+#include "geometry/aperture.h"
 #include "geometry/half_difference.h"
 
 namespace gonio {
@@ -100,7 +101,9 @@ struct Table {
                        ///< "astm", "ssdd", "zemax", "tensor_tree", "brdf_json", "xompt"
   std::vector<std::string> channels;  ///< "r", "g", "b"; "f" if there is one
   std::variant<Grid, DirectionList> where;
-  std::vector<Values> values;     ///< [channel][sample]
+  std::vector<Values> values;  ///< [channel][sample]
+  /// Standard uncertainty of each value [1/sr], above 0 where the value is one; empty: none is stated.
+  std::vector<Values> errors;
   std::vector<double> weights;    ///< per sample; empty: all 1
   bool negative_is_noise = true;  ///< else a negative value is the format's mark for "no data"
   std::optional<Truth> truth;     ///< if gonio made it
@@ -111,6 +114,7 @@ struct Table {
   std::function<double(const DirectionPair&, std::size_t channel)> between;
   /// The angle that each value of a list is an average over, for wi and wo alike; 0: points.
   double patch_deg = 0;
+  Aperture aperture;            ///< what each value is the mean over, as far as the file says
   std::vector<double> patches;  ///< ∫ cos θ_o dω_o of the patch that each sample's value is the
                                 ///< mean of; empty: points
 

@@ -180,6 +180,18 @@ void bring(const Folder& f, const std::string& name) {
         name,
         R"({"head": {"date": "3.4.2025"}, "data": {"wavelengths": [650, 450], "theta_i": [0, 45],
       "phi_i": [0, 0], "theta_v": [45, 0], "phi_v": [0, 0], "data": [[0.31, 0.32], [0.28, 0.29]]}})");
+  } else if (name == "spectrum.csv" || name == "ratios.csv") {
+    std::string text = "theta_i,theta_o";
+    for (int nm = 400; nm <= 700; nm += 50) text += fmt::format(",f_{}", nm);
+    for (int theta_i = 10; theta_i <= 70; theta_i += 10)
+      for (int theta_o = -75; theta_o <= 75; theta_o += 5) {
+        text += fmt::format("\n{},{}", theta_i, theta_o);
+        const DirectionPair p{direction(theta_i * degree, 0),
+                              direction(theta_o * degree, std::numbers::pi)};
+        for (int nm = 400; nm <= 700; nm += 50)
+          text += fmt::format(",{:.5g}", satin(p, 0) * nm / 500);
+      }
+    f.write(name, text + "\n");
   } else if (name == "run30.txt") {
     f.write(name, "angle brdf\n10 0.4\n20 0.6\n30 0.8\n40 0.6\n");
   } else {

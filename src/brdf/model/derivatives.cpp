@@ -35,7 +35,8 @@ template <class F>
 ModelDerivatives<F>::ModelDerivatives(const Model& m,
                                       const std::vector<bool>& free,
                                       const Kernels<F>& k,
-                                      const TexelTerms<F>* texels)
+                                      const TexelTerms<F>* texels,
+                                      bool means)
     : model_(m), free_(free), k_(k), texels_(texels), turned_(m, k), channel_steps_(m.channels) {
   std::vector<DualColumn<F>> dv;  // D·V, shared by the channels
   for (const auto& l : m.lobes) {
@@ -75,6 +76,30 @@ ModelDerivatives<F>::ModelDerivatives(const Model& m,
     used = std::max(used, next_);
   }
   next_ = used;
+  if (!means) return;
+  at_angles_ = channels_;
+  for (auto& channel : channels_) {
+    auto& own = means_.emplace_back(1 + channel.d.size());
+    for (auto& column : own) column = Column<F>(Scratch<F>::block);
+    channel.value = own[0].data();
+    for (std::size_t i = 0; i < channel.d.size(); ++i) channel.d[i].second = own[1 + i].data();
+  }
+}
+
+template <class F>
+void ModelDerivatives<F>::find_means(const SampleBlock<F>& samples) {
+  for (auto& own : means_)
+    for (auto& column : own) std::fill_n(column.data(), samples.n, F(0));
+  for_parts(samples, Scratch<F>::block, [&](const Block<F>& angles, const auto& add) {
+    const Block<F> b = turned_(angles);
+    for (const auto& s : shared_steps_) s(b);
+    for (std::size_t c = 0; c < at_angles_.size(); ++c) {
+      for (const auto& s : channel_steps_[c]) s(b);
+      add(at_angles_[c].value, means_[c][0].data());
+      for (std::size_t k = 0; k < at_angles_[c].d.size(); ++k)
+        add(at_angles_[c].d[k].second, means_[c][1 + k].data());
+    }
+  });
 }
 
 template <class F>

@@ -10,6 +10,7 @@
 
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/evaluate.h"
+#include "brdf/model/mean_block.h"
 #include "brdf/model/model.h"
 
 namespace gonio {
@@ -39,10 +40,12 @@ class ModelDerivatives {
  public:
   /// \param free  per value slot: whether its derivative is wanted; others are left out
   /// \param texels  null: one model at all samples
+  /// \param means   whether the samples are means over several angles
   ModelDerivatives(const Model&,
                    const std::vector<bool>& free,
                    const Kernels<F>&,
-                   const TexelTerms<F>* texels = nullptr);
+                   const TexelTerms<F>* texels = nullptr,
+                   bool means = false);
   ModelDerivatives(const ModelDerivatives&) = delete;
 
   /// The values, model.value_count of them, of the runs that follow; of texels, whose frames are turned already, [slot][padding].
@@ -63,8 +66,16 @@ class ModelDerivatives {
       visit(c);
     }
   }
+  /// The same of samples that are means, where these are.
+  template <class Visit>
+  void run(const SampleBlock<F>& samples, Visit&& visit) {
+    if (!samples.mean) return run(static_cast<const Block<F>&>(samples), visit);
+    find_means(samples);
+    for (std::size_t c = 0; c < channels_.size(); ++c) visit(c);
+  }
 
  private:
+  void find_means(const SampleBlock<F>&);
   struct Written;
   using Step = std::function<void(const Block<F>&)>;
   DualColumn<F> term(const TermUse&, std::size_t channel);
@@ -93,6 +104,9 @@ class ModelDerivatives {
   std::vector<std::vector<Step>> channel_steps_;
   std::vector<Step>* into_ = &shared_steps_;
   std::vector<DualColumn<F>> channels_;
+  /// Where samples are means: what channels_ were at single angles, and the columns of the means, value first, [channel].
+  std::vector<DualColumn<F>> at_angles_;
+  std::vector<std::vector<Column<F>>> means_;
 };
 
 }  // namespace gonio

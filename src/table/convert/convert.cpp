@@ -13,6 +13,7 @@
 #include "table/convert/isotropy.h"
 #include "table/convert/rgb_spectra.h"
 #include "table/format/formats.h"
+#include "table/format/measured_by.h"
 #include "table/format/rgl/resample.h"
 #include "table/nearest_sample.h"
 
@@ -71,15 +72,15 @@ Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
   const bool spectrum = o.format == "rgl" && is_spectrum(wanted);
   if (spectrum) std::ranges::stable_sort(wanted, {}, wavelength);
   for (const auto& name : wanted) {
-    const auto at = std::ranges::find(t.channels, name);
-    if (at == t.channels.end())
-      throw wrong_usage(fmt::format("no channel '{}' among {}", name, fmt::join(t.channels, ", ")));
-    if (std::ranges::find(out.channels, name) != out.channels.end())
+    picked.push_back(channel_named(t, name));
+    const auto& own = t.channels[picked.back()];
+    if (std::ranges::find(out.channels, own) != out.channels.end())
       throw wrong_usage(fmt::format("channel '{}' twice", name));
-    out.channels.push_back(name);
-    picked.push_back(static_cast<std::size_t>(at - t.channels.begin()));
+    out.channels.push_back(own);
     out.values.push_back(t.values[picked.back()]);
+    if (o.format == "csv" && !t.errors.empty()) out.errors.push_back(t.errors[picked.back()]);
   }
+  out.aperture = t.aperture;
   if (t.between)
     out.between = [between = t.between, picked](const DirectionPair& p, std::size_t c) {
       return between(p, picked[c]);
@@ -138,10 +139,11 @@ Table listed(Table t, Loss& loss) {
   }
   loss.method = Loss::Method::listed;
   loss.left_out = t.size() - kept.size();
-  for (auto& plane : t.values) {
-    for (std::size_t k = 0; k < kept.size(); ++k) plane[k] = plane[kept[k]];
-    plane.resize(kept.size());
-  }
+  for (auto* planes : {&t.values, &t.errors})
+    for (auto& plane : *planes) {
+      for (std::size_t k = 0; k < kept.size(); ++k) plane[k] = plane[kept[k]];
+      plane.resize(kept.size());
+    }
   t.where = std::move(l);
   return t;
 }

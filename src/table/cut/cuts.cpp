@@ -8,6 +8,7 @@
 #include <numbers>
 
 #include "brdf/model/evaluate.h"
+#include "integrate/aperture/mean_values.h"
 
 namespace gonio {
 namespace {
@@ -41,6 +42,7 @@ bool finish(Cut& cut,
             double peak_deg,
             double from_deg,
             double phi_d,
+            const Aperture& aperture,
             const BoundModel* fitted) {
   const bool any = std::ranges::any_of(points, [](const Point& p) {
     return std::ranges::any_of(p.data, [](double v) { return std::isfinite(v); });
@@ -69,7 +71,12 @@ bool finish(Cut& cut,
       cut.data[c].push_back(p.data.empty() ? none : p.data[c]);
   }
   if (!fitted) return true;
-  cut.model = evaluate(*fitted, x);
+  const auto at = [&](std::size_t i) { return place(cut, phi_d, points[i].deg); };
+  cut.model =
+      aperture
+          ? mean_values(*fitted, ApertureAngles(x.size(), at, aperture, fitted->model.anisotropic),
+                        0, x.size())
+          : evaluate(*fitted, x);
   for (auto& channel : cut.model)
     for (std::size_t i = 0; i < x.size(); ++i)
       if (!(x[i].nol > 0 && x[i].nov > 0)) channel[i] = none;
@@ -144,7 +151,8 @@ std::vector<Cut> grid_cuts(const Table& table, const BoundModel* fitted) {
         for (std::size_t c = 0; c < point.data.size(); ++c) point.data[c] = between(p, c);
       points.push_back(std::move(point));
     }
-    if (finish(cut, std::move(points), slice ? 0 : at_deg, slice ? 0 : -89.5, phi_d, fitted))
+    if (finish(cut, std::move(points), slice ? 0 : at_deg, slice ? 0 : -89.5, phi_d, table.aperture,
+               fitted))
       cuts.push_back(std::move(cut));
   }
   return cuts;
@@ -204,7 +212,8 @@ std::vector<Cut> list_cuts(const Table& table, const BoundModel* fitted) {
         point.data.push_back(mask(a, channel[s.sample]) == Mask::valid ? channel[s.sample] : none);
       points.push_back(std::move(point));
     }
-    if (finish(cut, std::move(points), at_deg, -89.5, 0, fitted)) cuts.push_back(std::move(cut));
+    if (finish(cut, std::move(points), at_deg, -89.5, 0, table.aperture, fitted))
+      cuts.push_back(std::move(cut));
   }
   return cuts;
 }

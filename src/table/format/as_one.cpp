@@ -85,10 +85,17 @@ Table read_as_one(const std::vector<std::string>& paths, std::optional<Bins> bin
       all.format = t.format;
       all.truth = t.truth;
       all.values.resize(t.values.size());
+      all.errors.resize(t.errors.size());
+      all.aperture = t.aperture;
     } else if (t.channels != all.channels) {
       throw bad_input(path, "channels", fmt::format("{}", fmt::join(t.channels, " ")),
                       fmt::format("{}, as {} has", fmt::join(all.channels, " "), paths.front()));
     }
+    if (t.errors.empty() != all.errors.empty())
+      throw bad_input(path, "uncertainties", t.errors.empty() ? "none" : "some",
+                      fmt::format("as {} has", paths.front()));
+    if (t.aperture != all.aperture)
+      throw bad_input(path, "aperture", "another", fmt::format("that of {}", paths.front()));
     same_truth = same_truth && t.truth && all.truth && t.truth->model == all.truth->model &&
                  t.truth->parameters == all.truth->parameters;
     auto ratios = earlier.compare_and_add(t);
@@ -118,6 +125,7 @@ Table read_as_one(const std::vector<std::string>& paths, std::optional<Bins> bin
         all.values[c].push_back(t.values[c][i] < 0 && !t.negative_is_noise
                                     ? std::numeric_limits<double>::quiet_NaN()
                                     : t.values[c][i]);
+      for (std::size_t c = 0; c < t.errors.size(); ++c) all.errors[c].push_back(t.errors[c][i]);
       if (!t.weights.empty()) all.weights.resize(l.theta_i_deg.size() - 1, 1);
       if (!t.weights.empty() || !all.weights.empty())
         all.weights.push_back(t.weights.empty() ? 1 : t.weights[i]);

@@ -3,13 +3,17 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <tuple>
 
 #include "base/blanks.h"
 #include "base/error.h"
 #include "base/json/reader.h"
+#include "base/numbers.h"
+#include "table/format/measured_by.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -30,7 +34,12 @@ bool json_with(std::string_view head, std::initializer_list<std::string_view> ke
 class Geometries {
  public:
   /// \param label  what else tells samples apart
-  void add(std::array<double, 4> deg, const std::string& label, double wavelength_nm, double f) {
+  /// \param u      standard uncertainty of f; NaN: none is stated
+  void add(std::array<double, 4> deg,
+           const std::string& label,
+           double wavelength_nm,
+           double f,
+           double u = std::numeric_limits<double>::quiet_NaN()) {
     for (const std::size_t k : {0U, 2U})
       if (deg[k] < 0) deg[k] = -deg[k], deg[k + 1] += 180;
     const auto channel = channels_.try_emplace(wavelength_nm, channels_.size()).first->second;
@@ -44,7 +53,7 @@ class Geometries {
       list_.theta_o_deg.push_back(deg[2]);
       list_.phi_o_deg.push_back(deg[3]);
     }
-    values_.push_back({at->second, channel, f});
+    values_.push_back({at->second, channel, f, u});
   }
   /// False where that is more than a table holds.
   bool has_room(std::size_t channels) const {
@@ -68,7 +77,11 @@ class Geometries {
       t.notes.emplace_back("wavelength", fmt::format("{:g} nm", channels_.begin()->first));
     t.values.assign(t.channels.size(),
                     Values(list_.theta_i_deg.size(), std::numeric_limits<double>::quiet_NaN()));
-    for (const auto& v : values_) t.values[place[v.channel]][v.sample] = v.f;
+    if (std::ranges::any_of(values_, [](const Value& v) { return v.u > 0; })) t.errors = t.values;
+    for (const auto& v : values_) {
+      t.values[place[v.channel]][v.sample] = v.f;
+      if (!t.errors.empty()) t.errors[place[v.channel]][v.sample] = v.u;
+    }
     t.where = std::move(list_);
     return t;
   }
@@ -76,7 +89,7 @@ class Geometries {
  private:
   struct Value {
     std::size_t sample, channel;
-    double f;
+    double f, u;
   };
   using Deg = std::array<double, 4>;
   std::map<double, std::size_t> channels_;
@@ -94,6 +107,21 @@ double number_within(const JsonReader& j, double least, double most, const std::
 double value_in(const JsonReader& j) {
   if (j.is_null()) return std::nan("");
   return number_within(j, -1e30, 1e30, "a value");
+}
+
+/// True where words speak of an uncertainty expanded by k = 2.
+bool is_expanded(const std::string& words) {
+  std::string compact;
+  for (const char c : words)
+    if (c != ' ') compact += static_cast<char>(c >= 'A' && c <= 'Z' ? c - 'A' + 'a' : c);
+  return compact.find("k=2") != compact.npos || compact.find("expanded") != compact.npos;
+}
+/// \param f  where it is null, so may its uncertainty be
+double uncertainty_in(const JsonReader& j, const JsonReader& f) {
+  if (f.is_null() && j.is_null()) return std::nan("");
+  const double v = j.is_number() ? j.number() : std::nan("");
+  if (!(v > 0 && v <= 1e30)) j.fail("an uncertainty above 0");
+  return v;
 }
 
 void expect_room(const JsonReader& j, const Geometries& all, std::size_t channels) {
@@ -126,6 +154,21 @@ void tell_polarisation(const std::map<std::string, std::size_t>& counts, Table& 
   t.warnings.push_back(
       fmt::format("samples of polarised light ({}): a model of unpolarised light lies between them",
                   fmt::join(each, ", ")));
+}
+
+/// Cones by their solid angles, which files write like 1.2273E10-4 for 1.2273·10⁻⁴.
+Aperture aperture_in(const JsonReader& head) {
+  const auto width = [&](const char* name) {
+    if (!head.has(name)) return 0.0;
+    const auto said = head.at(name);
+    if (said.is_number()) return width_of_cone(std::max(said.number(), 0.0));
+    if (!said.is_string()) return 0.0;
+    std::string text = said.string();
+    if (const auto at = text.find("E10"); at != text.npos) text.erase(at + 1, 2);
+    const auto v = number_in(trimmed(text));
+    return v && *v > 0 ? width_of_cone(*v) : 0.0;
+  };
+  return {width("irradiation_sa"), width("collection_sa")};
 }
 
 Table new_form(const JsonReader& data) {
@@ -161,6 +204,14 @@ Table new_form(const JsonReader& data) {
   const std::array<Column, 4> angles{column("theta_i"), column("phi_i"), column("theta_r"),
                                      column("phi_r")};
   const Column f = column("BRDF");
+  std::optional<Column> u;
+  if (const auto at = columns.find("uBRDF"); at != columns.end()) {
+    u = at->second;
+    const auto& about = variables[u->index];
+    if (about.has("description") && about.at("description").is_string() &&
+        is_expanded(about.at("description").string()))
+      u->scale = 0.5;
+  }
   const auto wavelength = columns.find("wavelength_i");
   Geometries all;
   std::map<std::string, std::size_t> polarised;
@@ -182,7 +233,8 @@ Table new_form(const JsonReader& data) {
             wavelength == columns.end()
                 ? 0
                 : number_within(row.at(wavelength->second.index), 1, 1e6, "a wavelength"),
-            value_in(row.at(f.index)));
+            value_in(row.at(f.index)),
+            u ? u->scale * uncertainty_in(row.at(u->index), row.at(f.index)) : std::nan(""));
     expect_room(row, all, 0);
   }
   expect_filled(rows, all);
@@ -266,6 +318,8 @@ Table read_brdf_json(InputFile& in) {
   if (t.size() == 0) data.fail("no samples", "one at least");
   for (const char* about : {"head", "metadata"})
     if (root.has(about)) add_notes(root.at(about), t);
+  if (root.has("head")) t.aperture = aperture_in(root.at("head"));
+  check_aperture(in.path(), t.aperture);
   return t;
 }
 

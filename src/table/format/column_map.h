@@ -6,7 +6,8 @@
 ///               "weight": …, "channel": "lambda",
 ///               "unit": "degrees"|"radians", "forward": 180, "cosine": false, "scale": 1, "skip": 0}
 ///
-/// theta_i, phi_i, theta_o, phi_o, f or f_NAME (one for each channel) and weight name a column: by its
+/// theta_i, phi_i, theta_o, phi_o, f or f_NAME (one for each channel), u_f or u_f_NAME (their standard uncertainties [1/sr];
+/// U_f where they are expanded by k = 2) and weight name a column: by its
 /// name, by its number ("#1" is the first), or a constant in its place ("0").  What is not said is the
 /// column of that very name; an azimuth without one is 0.  Columns that nothing names are passed over.
 /// Where `channel` names a column, each of its values is a channel of its own (a wavelength a row).
@@ -37,9 +38,9 @@ struct ColumnMap {
   std::size_t skip = 0;
 };
 
-/// Regular expression of what a column can be: an angle, f, f_NAME, weight or channel.
+/// Regular expression of what a column can be: an angle, f, f_NAME, u_f, u_f_NAME, weight or channel.
 inline constexpr std::string_view role_pattern =
-    "^(theta_i|phi_i|theta_o|phi_o|f|weight|channel|f_[\\s\\S]+)$";
+    "^(theta_i|phi_i|theta_o|phi_o|weight|channel|([uU]_)?f|([uU]_)?f_[\\s\\S]+)$";
 /// True for these.
 bool is_role(const std::string&);
 

@@ -35,6 +35,17 @@ std::optional<std::string> channel_of(std::string_view name) {
   return {};
 }
 
+/// Channel, or none for all, of a column with standard uncertainties.
+std::optional<std::string> uncertainty_of(std::string_view role) {
+  if (role == "u_f" || role == "U_f") return "";
+  if (role.starts_with("u_f_") || role.starts_with("U_f_")) return std::string(role.substr(4));
+  return {};
+}
+/// Of metrology's letters, U is expanded by a factor of 2.
+double factor_of(std::string_view role) {
+  return role.starts_with("U") ? 0.5 : 1;
+}
+
 std::string_view without_blanks(std::string_view name) {
   constexpr std::string_view blanks = " \t\r\n";
   const auto from = name.find_first_not_of(blanks);
@@ -79,9 +90,12 @@ struct Column {
   std::optional<std::size_t> index;  ///< else the constant
   double constant = 0;
   bool is_value = channel_of(role).has_value();
+  bool is_uncertainty = uncertainty_of(role).has_value();
   double low = 0, high = std::numeric_limits<double>::max();  ///< of what is not a value
 
-  bool allows(double v) const { return is_value || (v >= low && v <= high); }
+  bool allows(double v) const {
+    return is_value || (is_uncertainty && std::isnan(v)) || (v >= low && v <= high);
+  }
 };
 
 /// Numbers of some rows, one after the other.
@@ -180,6 +194,7 @@ class CsvReader {
     if (role.starts_with("theta_")) c.low = -turn, c.high = turn;
     if (role.starts_with("phi_")) c.low = -2 * turn, c.high = 2 * turn;
     if (map_->radians && is_angle(role)) c.low *= 1 + 1e-6, c.high *= 1 + 1e-6;
+    if (c.is_uncertainty) c.low = std::numeric_limits<double>::min();
     if (!c.allows(constant) && !index)
       out_of_range(lines_, c, fmt::format("{:.6g}", constant), role);
     columns_.push_back(std::move(c));
@@ -203,9 +218,11 @@ class CsvReader {
     for (std::size_t k = 0; k < roles.size(); ++k) {
       const auto& name = roles[k];
       const auto channel = channel_of(name);
-      if (!channel && name != "weight" && !is_angle(name))
-        lines_.fail(lines_.label(k), "an unknown column",
-                    fmt::format("theta_i, phi_i, theta_o, phi_o, f, f_NAME or weight; {}", kHint));
+      if (!channel && name != "weight" && !is_angle(name) && !uncertainty_of(name))
+        lines_.fail(
+            lines_.label(k), "an unknown column",
+            fmt::format("theta_i, phi_i, theta_o, phi_o, f, f_NAME, u_f, u_f_NAME or weight; {}",
+                        kHint));
       if (has(name) || (channel && !channels.insert(*channel).second))
         lines_.fail(name, "a second column of that name", "one");
       add(name, k);
@@ -244,8 +261,8 @@ class CsvReader {
     std::vector<std::string> wanted;
     const bool values_named = has_values();
     for (const auto& name : lines_.names())
-      if (auto role = role_of(name);
-          is_angle(role) || role == "weight" || (!values_named && channel_of(role)))
+      if (auto role = role_of(name); is_angle(role) || role == "weight" ||
+                                     (!values_named && (channel_of(role) || uncertainty_of(role))))
         wanted.push_back(std::move(role));
     expect_few_channels(wanted);
     for (const auto& role : wanted)
@@ -270,7 +287,7 @@ class CsvReader {
     std::vector<std::pair<std::string, std::string>> all;
     for (const auto& [role, word] : map_->columns) {
       const auto star = word.find('*');
-      if (role != "f_*" || star == word.npos) {
+      if ((role != "f_*" && role != "u_f_*") || star == word.npos) {
         all.emplace_back(role, word);
         continue;
       }
@@ -281,8 +298,9 @@ class CsvReader {
         const auto name = without_blanks(whole);
         if (name.size() > before.size() + after.size() && name.starts_with(before) &&
             name.ends_with(after))
-          all.emplace_back("f_" + std::string(without_blanks(name.substr(
-                                      star, name.size() - before.size() - after.size()))),
+          all.emplace_back(role.substr(0, role.size() - 1) +
+                               std::string(without_blanks(
+                                   name.substr(star, name.size() - before.size() - after.size()))),
                            std::string(name));
       }
       if (all.size() == size)
@@ -384,7 +402,8 @@ class CsvReader {
 
   double number(Delimited& lines, const Column& c) const {
     const auto field = lines.fields()[*c.index];
-    if (c.is_value && is_gap(field)) return std::numeric_limits<double>::quiet_NaN();
+    if ((c.is_value || c.is_uncertainty) && is_gap(field))
+      return std::numeric_limits<double>::quiet_NaN();
     const double v = lines.number(*c.index);
     if (!c.allows(v)) out_of_range(lines, c, field, lines.label(*c.index));
     return v;
@@ -404,25 +423,68 @@ class CsvReader {
   void gather_columns(Table& t) {
     std::array<std::vector<double>, kAngles.size()> angles;
     std::vector<std::size_t> plane(columns_.size());
+    std::size_t uncertainties = 0;
     for (std::size_t k = 0; k < columns_.size(); ++k)
       if (columns_[k].is_value) {
         plane[k] = t.channels.size();
         t.channels.push_back(*channel_of(columns_[k].role));
+      } else if (columns_[k].is_uncertainty) {
+        plane[k] = uncertainties++;
       }
     t.values.resize(t.channels.size());
+    std::vector<Values> stated(uncertainties);
     tbb::parallel_for(std::size_t{0}, columns_.size(), [&](std::size_t k) {
       const auto angle = std::ranges::find(kAngles, columns_[k].role);
       if (columns_[k].is_value)
         t.values[plane[k]] = column<Values>(k);
+      else if (columns_[k].is_uncertainty)
+        stated[plane[k]] = column<Values>(k);
       else
         (angle == kAngles.end() ? t.weights
                                 : angles[static_cast<std::size_t>(angle - kAngles.begin())]) =
             column<std::vector<double>>(k);
     });
     rows_of_parts_.clear();
+    give_uncertainties(stated, t);
     auto& [theta_i, phi_i, theta_o, phi_o] = angles;
     t.where =
         DirectionList{std::move(theta_i), std::move(phi_i), std::move(theta_o), std::move(phi_o)};
+  }
+
+  /// Each channel has its own, or all have one's.
+  void give_uncertainties(const std::vector<Values>& stated, Table& t) const {
+    std::size_t at = 0;
+    std::vector<const Values*> of(t.channels.size());
+    std::vector<double> factor(t.channels.size(), 1);
+    for (const auto& c : columns_) {
+      const auto channel = uncertainty_of(c.role);
+      if (!channel) continue;
+      bool found = false;
+      for (std::size_t k = 0; k < of.size(); ++k) {
+        if (!channel->empty() && *channel != t.channels[k]) continue;
+        if (of[k] && !channel->empty()) continue;
+        of[k] = &stated[at];
+        factor[k] = factor_of(c.role);
+        found = true;
+      }
+      if (!found)
+        throw bad_input(
+            path_, "columns", fmt::format("{} of no values", c.role),
+            fmt::format("the uncertainty of one of f_{}", fmt::join(t.channels, ", f_")));
+      ++at;
+    }
+    if (stated.empty()) return;
+    for (std::size_t k = 0; k < of.size(); ++k) {
+      if (!of[k])
+        throw bad_input(path_, "columns", fmt::format("no uncertainty of f_{}", t.channels[k]),
+                        "u_f, or one for each f_NAME");
+      t.errors.push_back(*of[k]);
+      for (double& u : t.errors.back()) u *= factor[k];
+      for (std::size_t i = 0; i < t.errors[k].size(); ++i)
+        if (std::isfinite(t.values[k][i]) && !(t.errors[k][i] > 0))
+          throw bad_input(path_, fmt::format("sample {}", i + 1), "a value without uncertainty",
+                          "a standard uncertainty above 0 for each value");
+    }
   }
 
   /// The channel of the next row; false where there are too many.
@@ -458,7 +520,8 @@ class CsvReader {
                                  const Column& c,
                                  std::string_view field,
                                  const std::string& label) const {
-    std::string expected = bracketed(c.low, c.high);
+    std::string expected =
+        c.is_uncertainty ? "a standard uncertainty above 0" : bracketed(c.low, c.high);
     if (is_angle(c.role)) expected += map_->radians ? " radians" : " degrees";
     if (c.role.starts_with("theta_")) expected += " (a zenith angle; perhaps columns are swapped)";
     lines.fail(label, field, expected);
@@ -482,14 +545,15 @@ class CsvReader {
 
   /// 1/sr without the cosine.
   void to_f(Table& t) const {
-    for (auto& plane : t.values)
-      for (std::size_t i = 0; i < plane.size(); ++i) {
-        plane[i] *= map_->scale;
-        if (!map_->cosine) continue;
-        const double cosine = std::cos(t.list()->theta_o_deg[i] * degree);
-        plane[i] =
-            cosine < least_cosine ? std::numeric_limits<double>::quiet_NaN() : plane[i] / cosine;
-      }
+    for (auto* planes : {&t.values, &t.errors})
+      for (auto& plane : *planes)
+        for (std::size_t i = 0; i < plane.size(); ++i) {
+          plane[i] *= map_->scale;
+          if (!map_->cosine) continue;
+          const double cosine = std::cos(t.list()->theta_o_deg[i] * degree);
+          plane[i] =
+              cosine < least_cosine ? std::numeric_limits<double>::quiet_NaN() : plane[i] / cosine;
+        }
   }
 
   void gather_channels(Table& t) const {
@@ -511,12 +575,15 @@ class CsvReader {
       angles->resize(samples.size());
     const Values column = std::move(t.values[0]);
     const auto weights = std::move(t.weights);
-    t.values.assign(channels_.size(),
-                    Values(samples.size(), std::numeric_limits<double>::quiet_NaN()));
+    const auto stated = std::move(t.errors);
+    const Values none(samples.size(), std::numeric_limits<double>::quiet_NaN());
+    t.values.assign(channels_.size(), none);
+    t.errors.assign(stated.empty() ? 0 : channels_.size(), none);
     t.weights.assign(weights.empty() ? 0 : samples.size(), -1);
     for (std::size_t i = 0; i < rows_; ++i) {
       const std::size_t sample = places[i];
       t.values[channel_of_row_[i]][sample] = column[i];
+      if (!stated.empty()) t.errors[channel_of_row_[i]][sample] = stated[0][i];
       l.theta_i_deg[sample] = rows.theta_i_deg[i];
       l.phi_i_deg[sample] = rows.phi_i_deg[i];
       l.theta_o_deg[sample] = rows.theta_o_deg[i];
@@ -529,11 +596,13 @@ class CsvReader {
     }
     t.where = std::move(l);
     t.channels.clear();
-    auto planes = std::move(t.values);
+    auto planes = std::move(t.values), errors = std::move(t.errors);
     t.values.clear();
+    t.errors.clear();
     for (const auto& [name, channel] : channels_in_order()) {
       t.channels.push_back(name);
       t.values.push_back(std::move(planes[channel]));
+      if (!errors.empty()) t.errors.push_back(std::move(errors[channel]));
     }
   }
 
@@ -671,7 +740,8 @@ std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
 }
 
 void write_csv(const Table& t, OutputFile& out) {
-  const std::size_t columns = kAngles.size() + t.channels.size() + (t.weights.empty() ? 0 : 1);
+  const std::size_t columns =
+      kAngles.size() + t.channels.size() + t.errors.size() + (t.weights.empty() ? 0 : 1);
   if (t.channels.size() > most_channels || t.size() > most_values / columns)
     throw bad_input(out.path(), "writing", fmt::format("{} rows of {} columns", t.size(), columns),
                     fmt::format("at most {} channels and {} numbers, which is read", most_channels,
@@ -679,6 +749,8 @@ void write_csv(const Table& t, OutputFile& out) {
   std::string text = "theta_i,phi_i,theta_o,phi_o";
   for (const auto& channel : t.channels)
     text += "," + (channel == "f" ? channel : comma_field("f_" + channel));
+  for (std::size_t c = 0; c < t.errors.size(); ++c)
+    text += "," + (t.channels[c] == "f" ? "u_f" : comma_field("u_f_" + t.channels[c]));
   text += t.weights.empty() ? "\n" : ",weight\n";
   const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i) {
@@ -690,6 +762,10 @@ void write_csv(const Table& t, OutputFile& out) {
       if (c > 0) text += ',';
       const double v = t.values[c][i];
       append(text, v < 0 && !t.negative_is_noise ? std::numeric_limits<double>::quiet_NaN() : v);
+    }
+    for (const auto& plane : t.errors) {
+      text += ',';
+      append(text, plane[i]);
     }
     if (!t.weights.empty()) {
       text += ',';

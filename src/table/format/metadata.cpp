@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/json/reader.h"
+#include "table/format/measured_by.h"
 #include "table/format/side_file.h"
 
 #include <fmt/format.h>
@@ -91,8 +92,8 @@ double scale(const JsonReader& j) {
 }
 
 [[noreturn]] void refuse_key(const JsonReader& value) {
-  std::vector<std::string> keys{"theta_i", "phi_i",  "theta_o", "phi_o",
-                                "f",       "f_NAME", "weight",  "channel"};
+  std::vector<std::string> keys{"theta_i", "phi_i", "theta_o",  "phi_o",  "f",
+                                "f_NAME",  "u_f",   "u_f_NAME", "weight", "channel"};
   std::ranges::copy(keys_of<ColumnMap>(), std::back_inserter(keys));
   value.fail(no_such_key(std::move(keys)));
 }
@@ -154,8 +155,9 @@ Json parse_side(const std::string& file, const std::string& text) {
 bool is_role(const std::string& name) {
   constexpr std::array<std::string_view, 7> roles{"theta_i", "phi_i",  "theta_o", "phi_o",
                                                   "f",       "weight", "channel"};
-  return std::ranges::find(roles, name) != roles.end() ||
-         (name.starts_with("f_") && name.size() > 2);
+  return std::ranges::find(roles, name) != roles.end() || name == "u_f" || name == "U_f" ||
+         (name.starts_with("f_") && name.size() > 2) ||
+         ((name.starts_with("u_f_") || name.starts_with("U_f_")) && name.size() > 4);
 }
 
 std::string side_path(const std::string& path) {
@@ -163,12 +165,13 @@ std::string side_path(const std::string& path) {
 }
 
 bool needs_metadata(const Table& t) {
-  return t.truth || !t.notes.empty() || t.format == "utia" ||
+  return t.truth || t.aperture || !t.notes.empty() || t.format == "utia" ||
          (keeps_bins(t) && t.grid()->bins != Bins::centre);
 }
 
 std::string metadata_text(const Table& t, const std::string& sha256) {
-  SideFile side{sha256, {}, {}, {}, t.truth, notes_of(t)};
+  SideFile side{sha256, {}, {}, {}, t.truth, notes_of(t), {}, {}};
+  if (t.aperture) side.aperture_deg = {t.aperture.light / degree, t.aperture.detector / degree};
   if (t.format == "utia") side.values = UtiaValues::f_r;
   if (keeps_bins(t)) side.bins = t.grid()->bins;
   return text_of(json_of(side));
@@ -193,6 +196,26 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
   if (root.has("columns") && t.format != "csv")
     root.at("columns").fail("none: this table is not CSV");
   if (root.has("truth")) t.truth = read_truth(root.at("truth"));
+  if (root.has("aperture")) {
+    const auto said = root.at("aperture").numbers();
+    if (said.size() != 2)
+      root.at("aperture").fail("two widths: of the light's cone and the detector's");
+    t.aperture = {said[0] * degree, said[1] * degree};
+    check_aperture(file, t.aperture);
+  }
+  if (root.has("uncertainty")) {
+    if (!t.errors.empty()) root.at("uncertainty").fail("none: the table has its own");
+    const auto j = root.at("uncertainty");
+    const double relative = j.has("relative") ? number_within(j.at("relative"), 0, 1) : 0;
+    const double floor = j.has("floor") ? number_within(j.at("floor"), 0, kAny) : 0;
+    for (const auto& [key, value] : j.members())
+      if (key != "relative" && key != "floor") value.fail("no such key; relative or floor");
+    if (!(relative > 0 || floor > 0)) j.fail("relative or floor above 0");
+    t.errors = t.values;
+    for (auto& plane : t.errors)
+      for (double& v : plane)
+        v = std::max(std::hypot(relative * v, floor), std::numeric_limits<double>::min());
+  }
   if (root.has("notes"))
     for (const auto& [name, note] : root.at("notes").members())
       t.notes.emplace_back(name, note.string());

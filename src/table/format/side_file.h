@@ -17,6 +17,15 @@
 
 namespace gonio {
 
+/// Standard uncertainty of all values:  u² = (relative f)² + floor²
+struct StatedUncertainty {
+  double relative = 0, floor = 0;
+};
+template <>
+inline constexpr auto description<StatedUncertainty> =
+    std::tuple{Field{"relative", &StatedUncertainty::relative, "part of the value"},
+               Field{"floor", "1/sr", &StatedUncertainty::floor, ""}};
+
 /// Knowledge of a table beyond its format, as it stands in a file.
 struct SideFile {
   std::string sha256;  ///< of the table's file; empty: nothing is said of it
@@ -25,6 +34,8 @@ struct SideFile {
   std::optional<ColumnMap> columns;
   std::optional<Truth> truth;
   std::vector<std::pair<std::string, std::string>> notes;
+  std::vector<double> aperture_deg;  ///< empty: none is known
+  std::optional<StatedUncertainty> uncertainty;
 };
 inline constexpr const char* side_file_id = "gonio.table/1";
 
@@ -75,6 +86,12 @@ inline constexpr auto description<SideFile> =
                Field{"values", if_there(&SideFile::values), "what the numbers of a UTIA file are"},
                Field{"columns", if_there(&SideFile::columns), "how to read those of a CSV file"},
                Field{"truth", if_there(&SideFile::truth), "what the table was made from"},
+               Field{"aperture", "°", if_there([](const SideFile& f) {
+                       return f.aperture_deg.empty() ? std::nullopt : std::optional(f.aperture_deg);
+                     }),
+                     "full widths of the cones of light and detector"},
+               Field{"uncertainty", if_there(&SideFile::uncertainty),
+                     "standard uncertainty of the values, where the table states none"},
                Field{"notes", if_there([](const SideFile& f) {
                        return f.notes.empty() ? std::nullopt : std::optional(f.notes);
                      }),

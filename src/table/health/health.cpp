@@ -169,12 +169,23 @@ std::string peak_in_words(const Highlight& p) {
       return s + (p.samples_within <= 1
                       ? "one sample wide, so limited by the instrument: alpha is at most that"
                       : "not resolved: alpha is at most about that");
+    case PeakLimit::aperture:
+      return s + "as narrow as the instrument: the lobe's own width is for a fit to tell";
     case PeakLimit::bins:
       break;
   }
   return s +
          fmt::format("limited by the bins: where samples sit in them changes alpha by {:+.0f} %",
                      100 * p.bin_sensitivity.value_or(0));
+}
+
+double typical_uncertainty(const Table& t) {
+  std::vector<double> parts;
+  for (std::size_t c = 0; c < t.errors.size(); ++c)
+    for (std::size_t i = 0; i < t.errors[c].size(); ++i)
+      if (const double y = t.values[c][i]; y > 0 && t.errors[c][i] > 0)
+        parts.push_back(t.errors[c][i] / y);
+  return parts.empty() ? std::nan("") : median(parts);
 }
 
 Health inspect(const Table& t) {
@@ -203,7 +214,11 @@ Health inspect(const Table& t) {
     if (t.has_bins())
       if (const auto other = find_peak(t, bins == Bins::centre ? Bins::edge : Bins::centre).peak)
         p.bin_sensitivity = other->alpha / p.alpha - 1;
-    if (!p.resolved)
+    // A mirror's image is as wide as both cones; h turns by half of that, to either side.
+    const double of_instrument = (t.aperture.light + t.aperture.detector) / 4 / degree;
+    if (p.half_width_deg < 1.5 * of_instrument)
+      p.limit = PeakLimit::aperture;
+    else if (!p.resolved)
       p.limit = PeakLimit::samples;
     else if (std::abs(p.bin_sensitivity.value_or(0)) > 0.1)
       p.limit = PeakLimit::bins;

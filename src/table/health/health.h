@@ -31,10 +31,12 @@ struct AlbedoSample {
 enum class PeakLimit {
   none,
   samples,  ///< fewer than three within the half width, or each an average over more than that
-  bins      ///< the other bin convention changes alpha by more than a tenth
+  bins,     ///< the other bin convention changes alpha by more than a tenth
+  aperture  ///< no wider than 1.5 times what the instrument makes of a mirror
 };
 template <>
-inline constexpr std::array<std::string_view, 3> names_of<PeakLimit>{"none", "samples", "bins"};
+inline constexpr std::array<std::string_view, 4> names_of<PeakLimit>{"none", "samples", "bins",
+                                                                     "aperture"};
 
 /// The specular peak, and what limits it.
 struct Highlight : Peak {
@@ -78,6 +80,9 @@ struct Health {
 };
 
 Health inspect(const Table&);
+
+/// Median of the stated standard uncertainties over their values; NaN where none are stated.
+double typical_uncertainty(const Table&);
 
 /// The noise floor that negative values betray [1/sr]: 1.4826 · median |negative| above the horizon,
 /// where negatives are noise, make up at least 0.1 % of the values there, and are not one number that

@@ -36,6 +36,9 @@ void change(std::vector<Setting>& all) {
 void change(std::optional<std::string>& text) {
   text = "theta_o > 80";
 }
+void change(std::optional<double>& number) {
+  number = 0.5;
+}
 void change(std::optional<Bins>& bins) {
   bins = Bins::edge;
 }
@@ -87,7 +90,8 @@ std::size_t members() {
 TEST(MadeWith, AnyDescribedOptionThatChangesIsAnotherKey) {
   std::set<std::string> keys{made_with({})};
   const std::size_t n = members<HowFitted>();
-  EXPECT_EQ(n, member_count<FitOptions>() + member_count<HowFitted>() - 1);
+  EXPECT_EQ(
+      n, member_count<FitOptions>() + member_count<AsMeasured>() + member_count<HowFitted>() - 2);
   for (std::size_t k = 0; k < n; ++k)
     EXPECT_TRUE(keys.insert(key_with<HowFitted>({}, k, made_with)).second) << "member " << k;
 }
