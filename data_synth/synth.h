@@ -60,8 +60,7 @@ inline constexpr auto description<SynthOptions> = std::tuple{
     Field{"seed", &SynthOptions::seed, "the same table for the same seed, whatever the threads"},
     Field{"aperture", &SynthOptions::aperture, aperture_in_words},
     Field{"uncertainty", &SynthOptions::uncertainty,
-          "whether a CSV table states each value's standard uncertainty, NOISE × value",
-          Either{"unsaid", "stated"}}};
+          "states each value's standard uncertainty, NOISE × value, in a CSV table"}};
 
 /// Directions of the random layout, less than 87° from the normal.
 DirectionList random_pairs(std::size_t n, std::uint64_t seed);

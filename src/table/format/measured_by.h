@@ -59,8 +59,7 @@ inline constexpr auto description<AsMeasured> = std::tuple{
     Field{"channels", &AsMeasured::channels,
           "channels to take: their names, or wavelengths as 450nm 550nm 650nm"},
     Field{"rgb", &AsMeasured::rgb,
-          "linear: a spectrum's bands become linear sRGB under D65, where they cover 400 to 700 nm",
-          Either{"as_is", "linear"}}};
+          "a spectrum's bands become linear sRGB under D65, where they cover 400 to 700 nm"}};
 static_assert(describes_every_member<AsMeasured>());
 /// Takes all of it into the table.
 void take(Table&, const AsMeasured&);
