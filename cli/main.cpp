@@ -11,11 +11,24 @@
 #include "base/path_error.h"
 #include "base/text.h"
 #include "cli/line/command.h"
+#include "reports/measure/machine.h"
 
 #include <fcntl.h>
 #include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+extern const char* const commit;  ///< that this was built from, by cmake/commit.cmake
+}  // namespace gonio
 
 namespace {
+
+/// The version, and in a second line what a report of a defect has to name.
+std::string version() {
+  const auto m = gonio::this_machine();
+  return fmt::format("{}\ncommit {}, {}, vector units here: {}", GONIO_VERSION, gonio::commit,
+                     m.compiler, fmt::join(m.instruction_sets, " "));
+}
 
 int finish(gonio::Exit code) {
   return static_cast<int>(code);
@@ -49,7 +62,7 @@ int run(int argc, char** argv) {
   gonio::cli::CommandLine line(
       "gonio fits analytic BRDF models to tabulated reflectance and says how far to trust the "
       "result.",
-      GONIO_VERSION,
+      version,
       "Exit codes: 0 done, 1 a check failed, 2 wrong usage, 3 bad input or output, 4 the fit did "
       "not converge.");
   // As one needs them: tables, formulas, reports, scenes.

@@ -148,6 +148,13 @@ install_python() {
   echo "Without nanobind and NumPy from PyPI: the module for Python is not built."
 }
 
+# mypy, which the package for Python is checked with, in build/mypy; without it that test is skipped.
+install_mypy() {
+  local at=build/mypy
+  if [ -e "$at/whole" ] || { from_pypi $at tests/python/mypy.txt python3.11 && touch "$at/whole"; }; then return 0; fi
+  echo "Without mypy from PyPI, for Python 3.11 on x86-64: the types of the package for Python are not checked."
+}
+
 # Blender as a module of Python 3.11, which exported glTF is looked at with, in build/blender: a gigabyte, so for ./check --long alone.
 install_blender() {
   local at=build/blender

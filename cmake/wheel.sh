@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds the wheel for Linux, in build/wheel_made/repaired, and tries it in a fresh virtual environment.
+# Builds the wheel for Linux, in build/wheel_made/TAG/repaired, and tries it in a fresh virtual environment.
+#   cmake/wheel.sh [PYTHON]   the interpreter it is for (python3); from 3.12 on the wheel is of the stable ABI, for every later one
 # Its Ceres is built here without SuiteSparse, LAPACK and glog; auditwheel brings in whatever else a bare machine lacks, and each of these
 # libraries is named below with its licence, or the wheel is refused.
 set -euo pipefail
@@ -12,7 +13,7 @@ bundled=(libfmt:MIT:libfmt9 libtbb:Apache-2.0:libtbb12 libOpenEXR:BSD-3-Clause:l
   libImath:BSD-3-Clause:libimath-3-1-29 libpugixml:MIT:libpugixml1v5 libembree3:Apache-2.0:libembree3-3 libpng16:libpng-2.0:libpng16-16
   libnettle:LGPL-3.0-or-later:libnettle8)
 # package of Debian whose headers, or static library, are compiled in
-compiled_in=(libeigen3-dev nlohmann-json3-dev libcli11-dev libxsimd-dev libboost-dev)
+compiled_in=(libeigen3-dev nlohmann-json3-dev libcli11-dev libxsimd-dev libboost-dev glslang-dev spirv-tools spirv-headers)
 
 # Ceres as a static library, in build/ceres, from Debian's source.  Of Eigen, which is under the MPL 2.0, only what is under that.
 build_ceres() {
@@ -51,35 +52,21 @@ look_at_libraries() {
   done
 }
 
-# The wheel where there is Debian, Python and nothing else: the program's fit and the module's are the same.
-try_on_bare_debian() {
-  local wheel=$1 bare=$PWD/$2
-  command -v debootstrap >/dev/null && [ "$(id -u)" = 0 ] ||
-    { echo "Without debootstrap and the rights to use it: the wheel is not tried on a bare Debian."; return 0; }
-  debootstrap --variant=minbase --include=python3-venv "$(. /etc/os-release && echo "$VERSION_CODENAME")" "$bare" >"$bare.txt" 2>&1 ||
-    { echo "No mirror of Debian is within reach: the wheel is not tried on a bare one."; return 0; }
-  mkdir "$bare/wheels" && cp "$wheel" tests/python/support.py tests/python/documents_test.py tests/python/run.py "$bare/wheels"
-  pip download -q --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/requirements.txt -d "$bare/wheels"
-  # With /proc, by which the loader finds the libraries beside the program.
-  unshare --mount --pid --fork --mount-proc="$bare/proc" chroot "$bare" sh -ec '
-    cd /wheels && python3 -m venv v && env -i v/bin/pip install -q --no-index --find-links . gonio
-    GONIO_PROGRAM=/wheels/v/bin/gonio v/bin/python -I run.py'
-  rm -rf "$bare"
-}
-
+asked=${1:-python3}
+tag=$("$asked" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')
 build_ceres || { echo "Without Debian's source of Ceres: no wheel is built."; exit 0; }
-at=build/wheel_tools
-{ [ -x $at/bin/pip ] || python3 -m venv $at; } &&
+at=build/wheel_tools/$tag
+{ [ -x $at/bin/pip ] || "$asked" -m venv $at; } &&
   $at/bin/pip install -qq --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/wheel.txt ||
   { echo "Without scikit-build-core and auditwheel from PyPI: no wheel is built."; exit 0; }
 python=$PWD/$at/bin/python
 export PATH=$PWD/$at/bin:$PATH PYTHONDONTWRITEBYTECODE=1
 
-out=build/wheel_made
+out=build/wheel_made/$tag
 rm -rf $out && mkdir -p $out
 echo "-- building"
 CXX=${CXX:-c++} CMAKE_ARGS="-DCMAKE_PREFIX_PATH=$PWD/build/ceres/installed" \
-  pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps -w $out/linux .
+  pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps -C build-dir=build/wheel/$tag -w $out/linux .
 auditwheel repair -w $out/repaired $out/linux/*.whl >$out/auditwheel.txt 2>&1 || { cat $out/auditwheel.txt >&2; exit 1; }
 wheel unpack -d $out/unpacked $out/repaired/*.whl >/dev/null
 gather_licences "$(echo $out/unpacked/gonio-*/gonio-*.dist-info)/licenses/bundled"
@@ -89,10 +76,7 @@ echo "-- $(basename "$wheel"), $(($(stat -c %s "$wheel") / 1048576)) MiB, with"
 look_at_libraries "$wheel"
 
 echo "-- trying it where there is nothing else"
-python3 -m venv $out/fresh
+"$asked" -m venv $out/fresh
 $out/fresh/bin/pip install -q --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/wheel.txt  # NumPy, matplotlib
 $out/fresh/bin/pip install -q --disable-pip-version-check --no-deps "$wheel"
 GONIO_PROGRAM=$PWD/$out/fresh/bin/gonio $out/fresh/bin/python -I tests/python/run.py
-
-echo "-- trying it on a bare Debian"
-try_on_bare_debian "$wheel" $out/bare

@@ -19,7 +19,7 @@ PyObject* add_error(nb::module_& m, const char* name, const char* doc, const nb:
 }
 
 void add_errors(nb::module_& m) {
-  PyObject* const any = add_error(m, "Error", "What the program would have said in one line.",
+  PyObject* const any = add_error(m, "Error", "The line that the program would have printed.",
                                   nb::make_tuple(nb::borrow(PyExc_Exception)));
   const auto bases = nb::make_tuple(nb::borrow(any), nb::borrow(PyExc_ValueError));
   wrong_usage_class = add_error(
@@ -70,7 +70,7 @@ void let_interrupt() {
 }  // namespace gonio::python
 
 NB_MODULE(_gonio, m) {
-  m.doc() = "What the package gonio is made of; its functions are the ones to call.";
+  m.doc() = "The compiled part of the package gonio, whose functions are the ones to call.";
   m.attr("__version__") = GONIO_VERSION;
   gonio::python::add_errors(m);
   gonio::python::bind_tables(m);

@@ -85,8 +85,7 @@ struct Description<Choice::Domain> {
     within("f0", d.f0, 0, 1);
     const bool fits = !d.fits.empty();
     const int kinds = d.eta.has_value() + d.f0.has_value() + !d.metals.empty() + fits;
-    expect(kinds <= 1, kinds > 1 && fits ? "fits" : "metal",
-           "one of eta, f0, metal and fits alone");
+    expect(kinds <= 1, kinds > 1 && fits ? "fits" : "metal", "only one of eta, f0, metal and fits");
   }
 };
 
@@ -375,7 +374,7 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
       if (asked)
         root.at("budgets").at(key).fail(
             "a model without a coat, which is asked albedo_error, delta_e_2000, energy_gain, "
-            "fresnel_error and reciprocity alone");
+            "fresnel_error and reciprocity only");
   }
   if (c.shipped.composed().lobes.empty())
     for (const auto& [asked, key] : {std::pair(c.budgets.fresnel_error, "fresnel_error"),

@@ -38,15 +38,20 @@ std::string sarif_of(const Validation& v) {
          {"level", "error"},
          {"message", {{"text", sentence(b)}}},
          {"locations",
-          Json::array({{{"physicalLocation", {{"artifactLocation", {{"uri", uri_of(v.path)}}}}},
+          Json::array({{{"physicalLocation",
+                         {{"artifactLocation", {{"uri", uri_of(v.path)}}},
+                          {"region", {{"startLine", 1}}}}},  // GitHub shows nothing without a line
                         {"logicalLocations",
                          Json::array({{{"fullyQualifiedName", "/budgets/" + b.budget}}})}}})}});
   }
   const Json document = {
       {"$schema", "https://json.schemastore.org/sarif-2.1.0.json"},
       {"version", "2.1.0"},
-      {"runs", Json::array({{{"tool", {{"driver", {{"name", "gonio"}, {"rules", rules}}}}},
-                             {"results", results}}})}};
+      {"runs",
+       Json::array({{{"tool", {{"driver", {{"name", "gonio"}, {"rules", rules}}}}},
+                     // Several choices of one commit: a run each, which takes no other's place.
+                     {"automationDetails", {{"id", "gonio/" + uri_of(v.path) + "/"}}},
+                     {"results", results}}})}};
   return text_of(document);
 }
 

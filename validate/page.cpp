@@ -117,7 +117,7 @@ std::string validation_page_html(const Validation& v) {
           Cell{b.words.empty() ? evidence_text(b.evidence) : b.words, {}, {}, "muted"});
   }
   out.sections = {{"Budgets", "The worst of each in the choice's domain.", {t}}};
-  Section light{"Light that comes back", "Of a uniform white sky, by the view.", {}};
+  Section light{"Light that comes back", "Under a uniform white sky, by the view.", {}};
   for (const auto& f : v.pictures.figures) light.parts.emplace_back(Shown{f.family, f.choices});
   if (!light.parts.empty()) out.sections.push_back(light);
   if (v.suggestion)
@@ -144,7 +144,7 @@ std::string validation_page_html(const Validation& v) {
   if (!names.empty())
     out.sections.push_back(
         {"Parameters",
-         "What the choice sets reaches model and reference, unless `reference_parameters` or the "
+         "The values of the choice reach model and reference, unless `reference_parameters` or the "
          "domain set it.",
          {parameters}});
   const auto code = [](const std::string& text) { return text.empty() ? text : "`" + text + "`"; };
@@ -156,8 +156,8 @@ std::string validation_page_html(const Validation& v) {
                                   {"reference", code(v.reference)},
                                   {"file", code(v.path)}}}}});
   out.setting =
-      "Albedos and colours are of the formula in double. What the number loses is in the budget of "
-      "inputs without a value, and in `gonio stability`.";
+      "Albedos and colours are of the formula in double. The losses of the number are in the "
+      "budget of inputs without a value, and in `gonio stability`.";
   return page_html(out, v.pictures);
 }
 

@@ -227,7 +227,7 @@ void add_bench(CommandLine& line) {
   c.option("--processes", o->processes,
            "Processes that measure everything in turn; 1: this one (default: 5, 15 with --full)")
       .in(1, 100);
-  c.flag("--times", o->times, "Times alone, without the errors, which take seconds");
+  c.flag("--times", o->times, "Only times, without the errors, which take seconds");
   c.flag("!--no-plain", o->plain, "fit, maps: without the plain way, which takes seconds and 1 GB");
   add_jobs(c, *o);
   add_output(c, *o);

@@ -107,10 +107,10 @@ void print(const FitDocument& d) {
                             s.other, changes));
   }
   if (const auto& c = d.certificate; c && !c->cells.empty())
-    say_below("search  ",
-              fmt::format("none of {} over {} lies below (lowest {:.6g}, the fit {:.6g}): no proof",
-                          counted(c->cells.size(), "cell"),
-                          fmt::to_string(fmt::join(c->parameters, ", ")), c->lowest, d.cost));
+    say_below("search  ", fmt::format("{} over {} tried, {} fits better (not a proof)",
+                                      counted(c->cells.size(), "place"),
+                                      fmt::to_string(fmt::join(c->parameters, ", ")),
+                                      c->lowest >= d.cost * (1 - 1e-6) ? "none" : "one"));
   for (const auto& w : d.warnings) say_below("beware  ", w);
   constexpr std::size_t most = 2;
   for (std::size_t k = 0; k < std::min(most, d.next.size()); ++k) say_below("try     ", d.next[k]);
@@ -306,7 +306,7 @@ void add_fit(CommandLine& line) {
   add_pages(c, o->pages);
   c.option(
       "--part", o->part,
-      "Of many tables one part, K/N, as 2/4: any number of them may share the folder, and gonio "
+      "One part of many tables, K/N, as 2/4: any number of them may share the folder, and gonio "
       "gather makes the summary; slurm: that of the task of an array, sbatch --array=1-N");
   add_jobs(c, *o);
   add_output(c, *o);

@@ -170,7 +170,7 @@ void add_fit_map(CommandLine& line) {
   c.option("STACK", o->stack, "Images and their directions: a document gonio.stack/1").required();
   c.options(o->texels);
   c.option("--tile", o->tiles,
-           "COLUMN,ROW of a tile to fit alone, into the folder of -o, from 0,0 on top left; "
+           "COLUMN,ROW of the only tile to fit, into the folder of -o, from 0,0 on top left; "
            "several times for several. gonio gather joins them")
       .one_each();
   c.option("--tile-size", o->tile_size, "WIDTH,HEIGHT of tiles, or one number for both")

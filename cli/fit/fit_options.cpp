@@ -11,7 +11,7 @@ void add_tables(Command& c, std::vector<std::string>& files) {
 
 Option add_pages(Command& c, bool& pages) {
   return c.flag("--pages", pages,
-                "Of many tables a page each, NAME.fit.html, to which summary.html links");
+                "With many tables: a page of each, NAME.fit.html, to which summary.html links");
 }
 
 }  // namespace gonio::cli

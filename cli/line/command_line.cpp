@@ -126,7 +126,7 @@ std::vector<Option> Command::options(const RecordType& record, void* at) {
 }
 
 CommandLine::CommandLine(const std::string& description,
-                         const std::string& version,
+                         const std::function<std::string()>& version,
                          const std::string& footer)
     : app_(std::make_unique<CLI::App>(description)) {
   app_->require_subcommand(1);

@@ -103,7 +103,7 @@ struct CommandText {
 class CommandLine {
  public:
   CommandLine(const std::string& description,
-              const std::string& version,
+              const std::function<std::string()>& version,
               const std::string& footer);
   ~CommandLine();
   /// A subcommand with its example under the help, and the options that it keeps for `run`.

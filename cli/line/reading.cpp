@@ -14,14 +14,14 @@ namespace gonio::cli {
 
 void add_reading(Command& c, ReadingWords& words, bool bounds) {
   c.option("--argument", words.arguments,
-           "Of a shader's function: what an argument stands for, x=noh; n=parameter")
+           "For a shader's function: what an argument stands for, x=noh; n=parameter")
       .at_most(64);
   c.option("--includes", words.includes,
-           "Of a shader's function: what its value has beside f: nothing, cosine (times NoL), pi "
+           "For a shader's function: what its value has beside f: nothing, cosine (times NoL), pi "
            "(times π), cosine,pi; of a masking function g or v");
   if (bounds)
     c.option("--bounds", words.bounds,
-             "Of a shader's function: NAME=LOW,HIGH[,DEFAULT] of a parameter, or NAME=VALUE")
+             "For a shader's function: NAME=LOW,HIGH[,DEFAULT] of a parameter, or NAME=VALUE")
         .at_most(64);
 }
 

@@ -26,7 +26,7 @@ Exit run(const ExploreCall& o) {
   if (o.what.size() > most_explored)
     throw wrong_usage(fmt::format("explore: {} models and tables, expected {} at most",
                                   o.what.size(), most_explored));
-  if (!o.set.empty() && o.what.size() != 1) throw wrong_usage("--set goes with one model alone");
+  if (!o.set.empty() && o.what.size() != 1) throw wrong_usage("--set goes with one model only");
   std::vector<std::string> inputs;
   for (const auto& w : o.what)
     if (std::filesystem::exists(w) || !file_in(w).empty()) inputs.push_back(w);

@@ -59,7 +59,7 @@ void refuse_integrals(const std::string& subject) {
   };
   refuse(split_sum_about, "gonio split_sum writes it as a table");
   for (const About* about : {&walk_about, &deterministic_about})
-    refuse(*about, "--compensation writes what comes near it, gonio albedo tells it");
+    refuse(*about, "--compensation writes what comes near it, gonio albedo says how near");
 }
 
 /// What a plan ships of a material: the model with its parameters, and the compensation that it keeps.
@@ -230,7 +230,7 @@ Exit run(const ShaderCall& o) {
                : shader::shader_source(d.formula, d.writing);
   if (table) {
     if (!masking)
-      throw wrong_usage("--table: the first lobe is not of ndf.ggx and a masking of alpha alone");
+      throw wrong_usage("--table: the first lobe is not of ndf.ggx and a masking of only alpha");
     progress("making the table");
     const auto texels = stored(split_sum_table(*masking, 64, 64), Storage::half);
     write_split_sum_table(table->temporary_path(), texels, Storage::half);
@@ -260,7 +260,7 @@ void add_shader(CommandLine& line) {
   c.option(
        "SPEC", o->subject,
        "Model, the fit.json of a fit, the plan.json of a plan, or a term or a map as `gonio "
-       "models` lists it; of a GLSL file's function alone GLSL is its own text with that header")
+       "models` lists it; a GLSL file's function by itself becomes its own text with that header")
       .required();
   c.option("--language", o->language, "glsl, wgsl or slang").required();
   c.option("--precision", o->precision, "Number that it computes in: float or half").show_default();

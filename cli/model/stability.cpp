@@ -162,7 +162,7 @@ void add_stability(CommandLine& line) {
            "angles; float; double")
       .one_of(std::array{"half", "mixed", "float", "double"});
   c.option("--form", o->form,
-           "How a distribution's half vector is given: cross, |n × h|²; cosine, NoH alone");
+           "How a distribution's half vector is given: cross, |n × h|²; cosine, only NoH");
   c.option("--domain", o->domain, "Ends of an input: NAME=LOW,HIGH …  (default: the hard domain)")
       .at_most(64);
   c.option("--require", o->require,

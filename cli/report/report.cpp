@@ -23,7 +23,8 @@ namespace {
 struct ReportCall : Common {
   std::string name, output, asset;
   std::vector<std::string> environments;
-  bool full = false;
+  std::string pictures;
+  bool full = false, quick = false;
 };
 constexpr std::string_view all_reports = "all";
 
@@ -66,10 +67,12 @@ class Files {
     rows_.write(r.csv);
     const CurveStyles styles(r.pictures.figures);
     for (const auto& f : r.pictures.figures) {
+      if (!r.linked.contains(f.id)) continue;
       picture(f.id + ".svg", to_svg(f, styles));
       picture(f.id + ".csv", to_csv(f));
     }
     for (const auto& m : r.pictures.maps) {
+      if (!r.linked.contains(m.id)) continue;
       picture(m.id + ".svg", to_svg(m));
       picture(m.id + ".csv", to_csv(m));
       picture(m.id + ".exr", to_exr(m));
@@ -166,8 +169,11 @@ class IndexFiles {
 Exit run(const ReportCall& o) {
   namespace fs = std::filesystem;
   use(o);
-  if (o.json && o.name == all_reports) throw wrong_usage("--json is for one report");
-  ReportOptions options{o.full, o.name == all_reports, {}, o.asset, this_program()};
+  const bool of_all = o.name == all_reports;
+  if (o.json && of_all) throw wrong_usage("--json is for one report");
+  if (o.quick && o.full) throw wrong_usage("--quick and --full exclude each other");
+  const bool all_files = o.pictures.empty() ? !of_all : o.pictures == "all";
+  ReportOptions options{o.full, of_all, o.quick, all_files, {}, o.asset, this_program()};
   for (const auto& path : o.environments) {
     const std::string name = fs::path(path).stem().string();
     if (std::ranges::find(options.environments, name, &ReportOptions::Light::name) !=
@@ -181,13 +187,14 @@ Exit run(const ReportCall& o) {
   std::vector<ReportKind> kinds;
   double all = 0;
   for (const auto& kind : report_kinds())
-    if (o.name == all_reports || o.name == kind.name) {
+    if (of_all || o.name == kind.name) {
       kinds.push_back(kind);
       all += kind.weight;
     }
   std::optional<IndexFiles> index_files;
-  if (o.name == all_reports) index_files.emplace(o.output);
+  if (of_all) index_files.emplace(o.output);
   ReportIndex index{{}, GONIO_VERSION, o.full, milliseconds_since_1970(), {}, {}};
+  index.quick = o.quick;
   std::vector<std::unique_ptr<Files>>
       files;  // nobody waits for a report to learn that it has no place
   for (const auto& kind : kinds) files.push_back(std::make_unique<Files>(o.output, kind.name));
@@ -251,6 +258,13 @@ void add_report(CommandLine& line) {
   c.option("--asset", o->asset,
            "A glTF file: its materials without textures are among the scenes, others are named");
   c.flag("--full", o->full, "Finer in roughness and angle, some minutes");
+  c.flag("--quick", o->quick,
+         "A first look: fewer materials, angles and samples; all takes about a minute");
+  c.option(
+       "--pictures", o->pictures,
+       "Which pictures have files: first, those that the pages show at first; all, those that a "
+       "reader chooses, too (default: all of one report, first of all)")
+      .one_of({"first", "all"});
   add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);

@@ -88,7 +88,7 @@ void add_compare(CommandLine& line) {
       .required();
   add_set(c, o->set);
   add_reading(c, o->reading);
-  c.option("--domain", o->domain, "Of two terms: NAME=LOW,HIGH of their parameters").at_most(64);
+  c.option("--domain", o->domain, "For two terms: NAME=LOW,HIGH of their parameters").at_most(64);
   add_bins(c, o->bins);
   c.options(o->measured);
   add_jobs(c, *o);

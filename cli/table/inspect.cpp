@@ -27,7 +27,7 @@ struct InspectCall : Common {
 };
 
 std::string noise_text(const Noise& n) {
-  if (!n.sigma) return "cannot be told: no nine samples lie on a line along one angle";
+  if (!n.sigma) return "unknown: no nine samples lie on a line along one angle";
   const std::string from =
       n.along == "repeats" ? "from repeated samples" : "from neighbours along " + n.along;
   if (n.bound) return fmt::format("below {:.2g} %, {}", std::max(100 * *n.sigma, 0.01), from);

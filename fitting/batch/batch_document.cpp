@@ -98,7 +98,7 @@ struct Description<BatchRow> {
   static constexpr auto exit_code = field(
       "exit_code",
       [](const BatchRow& r) { return static_cast<int>(r.outcome); },
-      "exit code of a fit of this table alone");
+      "exit code of a fit of only this table");
   static constexpr auto message =
       field("message", &BatchRow::message, "why there is no fit; else why the search ended");
 
@@ -119,7 +119,7 @@ struct Description<BatchRow> {
         exit_code,
         message,
         inlined(&BatchRow::fit),
-        field("preview", if_there(&BatchRow::preview), "small pictures, for the page alone")};
+        field("preview", if_there(&BatchRow::preview), "small pictures, only for the page")};
   }
 };
 
@@ -182,7 +182,7 @@ struct Description<Failure> {
         field("status", of_row(&BatchRow::outcome), ""),
         field(
             "exit_code", [](const Failure& f) { return static_cast<int>(f.row.outcome); },
-            "exit code of a fit of this table alone"),
+            "exit code of a fit of only this table"),
         field("message", of_row(&BatchRow::message), "why there is no fit"),
         group("batch", "of one table of a batch",
               field("made_with", &Failure::made_with,
@@ -221,7 +221,7 @@ struct Description<BatchSummary> {
                           [](const BatchSummary& s) {
                             return s.part.empty() ? std::nullopt : std::optional(s.part);
                           },
-                          "K/N where these are the tables of one part alone, else null"),
+                          "K/N where these are only the tables of one part, else null"),
                       field("counts", counts, "number of tables by status"),
                       field("missing", &BatchSummary::missing,
                             "paths of the tables that nobody has tried yet in this way"),

@@ -126,7 +126,7 @@ std::vector<std::string> models_asked(std::vector<std::string> models) {
   if (models == std::vector<std::string>{"all"})
     models.assign(usual_models().begin(), usual_models().end());
   if (models.size() > 1 && std::ranges::find(models, "all") != models.end())
-    throw wrong_usage("--models: 'all' stands alone");
+    throw wrong_usage("--models: 'all' stands by itself");
   for (std::size_t k = 1; k < models.size(); ++k)
     if (std::find(models.begin(), models.begin() + static_cast<std::ptrdiff_t>(k), models[k]) !=
         models.begin() + static_cast<std::ptrdiff_t>(k))

@@ -217,7 +217,7 @@ void differences(const PlannedModel& m, std::vector<std::string>& to) {
     if (!said.starts_with("The shape of the diffuse")) add(said);
   if (!m.planned.base.model.lobes.empty())
     add("Light between facets: MaterialX always gives it back, whether or not the plan does.");
-  if (m.planned.base.model.lobes.size() > 1) add("Further lobes: the first alone is written.");
+  if (m.planned.base.model.lobes.size() > 1) add("Further lobes: only the first is written.");
   if (is_coupled(m.planned.base))
     add("Coupling: MaterialX takes the highlight's albedo from what lies below, not its Fresnel.");
   const auto shape = diffuse_of(m.planned.base);

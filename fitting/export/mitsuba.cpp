@@ -187,7 +187,7 @@ std::vector<std::string> mitsuba_lost(const BoundModel& fit,
   for (const auto& d : fit.model.diffuse)
     if (catalogue()[d.term].coupled)
       all.emplace_back(
-          "What the highlight takes from the diffuse light: Mitsuba's blend adds both.");
+          "The light that the highlight takes from the diffuse term: Mitsuba's blend adds both.");
   if (!fresnel_is(fit, {"conductor", "dielectric"}))
     all.emplace_back("The Fresnel curve: Mitsuba's is exact, of an index.");
   if (s.tangent_deg != 0)

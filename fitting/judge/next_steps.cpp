@@ -287,7 +287,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
   if (d.log_offset > 0)
     steps.add("--metric l2_cosine gives dark values, which the noise floor lifts, less weight");
   if (f.few_angles)
-    steps.add("8 incident angles or more would tell the errors that values of one angle share");
+    steps.add("8 incident angles or more would show the errors that values of one angle share");
   return std::move(steps).first();
 }
 

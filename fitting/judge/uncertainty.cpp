@@ -288,8 +288,8 @@ Uncertainty uncertainty(const Sandwich& s,
     if (!stated && (std::isnan(covariance.freedom(a)) || samples_used <= unknowns)) {
       u.reason[i] = samples_used <= unknowns ? "no more values than unknowns"
                     : s.clusters.empty()
-                        ? "one value alone determines it: no interval holds"
-                        : "one incident angle alone determines it: no interval holds";
+                        ? "only one value determines it: no interval holds"
+                        : "only one incident angle determines it: no interval holds";
       continue;
     }
     constexpr double many = 1e9;

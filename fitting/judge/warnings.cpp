@@ -100,8 +100,8 @@ std::vector<std::string> warnings(const FitOptions& o,
     all.push_back("whether the model is right is not known: " + d.misfit.note);
   if (f.few_angles)
     all.push_back(fmt::format(
-        "{} incident angle{}: errors that the values of one angle share can hardly be told",
-        f.angles, f.angles == 1 ? "" : "s are few"));
+        "{} incident angle{}: errors that values of one angle share are hard to estimate", f.angles,
+        f.angles == 1 ? "" : "s are few"));
   if (f.retro)
     all.push_back(
         fmt::format("the highlight ({:.3g} 1/sr) sits at wo = wi and not at the half vector: a "

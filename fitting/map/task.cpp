@@ -193,7 +193,7 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
     throw wrong_usage("offset goes with the metrics log and relative, not with l2_cosine");
   if (o.refine_normals && turns())
     throw wrong_usage(fmt::format(
-        "normals are refined of isotropic models alone: '{}' is anisotropic", model().spec));
+        "normals are refined only with isotropic models: '{}' is anisotropic", model().spec));
   for (const auto* t : terms_of(model())) {
     const auto* own = foreign_term(t->term);
     if (own && o.refine_normals)

@@ -306,8 +306,9 @@ std::vector<NextDirection> plan_next(const Table& whole,
   if (freedom < 1)
     throw bad_input(
         t.path, "values", fmt::format("{} that a fit can use", a.counts.used),
-        fmt::format("more than the model's {} free parameters: what a fit leaves tells the noise",
-                    p.free.size()));
+        fmt::format(
+            "more than the model's {} free parameters: the residuals of a fit show the noise",
+            p.free.size()));
   if (r.document.solver.termination != "converged")
     throw Error(Exit::not_converged,
                 fmt::format("{}: the fit of '{}' did not converge: nothing can be planned by it",

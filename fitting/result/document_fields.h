@@ -98,7 +98,8 @@ inline constexpr auto description<MisfitCell> =
 template <>
 inline constexpr auto description<Misfit> = std::tuple{
     Field{"tested", &Misfit::tested, "whether the residuals could be tested"},
-    Field{"p", &Misfit::p, "probability that luck alone has them follow the angles so"},
+    Field{"p", &Misfit::p,
+          "probability that the residuals follow the angles this closely by chance"},
     Field{"size", &Misfit::size, "log RMS beyond noise"},
     Field{"told", &Misfit::told, "whether it is significant and large enough to matter"},
     Field{"follows", &Misfit::follows, "angles that most of it follows"},

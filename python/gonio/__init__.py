@@ -19,12 +19,13 @@ import json as _json
 import os as _os
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from typing import Any, TypeVar, Union
+from typing import overload as _overload
 
 import numpy as _np
 import numpy.typing as _npt
 
 from . import _gonio
-from ._commands import columns, compare, convert, explore, export, fit_map, plan, render, report, validate
+from ._commands import columns, compare, convert, explore, export, fit_map, plan, render, report, stack, validate
 from ._document import Document, Path
 from ._fit import Fit, Parameter, Parameters
 from ._gonio import BadInput, Error, WrongUsage, __version__
@@ -34,7 +35,7 @@ from ._own import shader_of as _shader_of
 __all__ = [
     "BadInput", "Document", "Error", "Fit", "OwnModel", "Parameter", "Parameters", "Table", "WrongUsage", "__version__", "albedo", "audit",
     "columns", "compare", "convert", "eval", "evaluate", "explore", "export", "fit", "fit_map", "inspect", "model", "models", "plan", "read",
-    "render", "report", "synth", "term", "validate",
+    "render", "report", "stack", "synth", "term", "validate",
 ]
 
 Values = Union[float, Sequence[float], _npt.NDArray[Any], str]
@@ -75,7 +76,8 @@ class Table:
             raise WrongUsage(f"values: of shape {f.shape}, where directions are of shape {shape}")
         planes = [_np.ascontiguousarray(f[..., c]).reshape(-1) for c in range(f.shape[-1])]
         w = None if weights is None else _numbers("weights", weights).reshape(-1)
-        self._table = _gonio.table(name, *columns, planes, list(channels), w)
+        a, b, c, d = columns
+        self._table = _gonio.table(name, a, b, c, d, planes, list(channels), w)
 
     @classmethod
     def _of(cls, table: _gonio.Table) -> Table:
@@ -232,7 +234,7 @@ def _numbers(name: str, x: _npt.ArrayLike) -> _npt.NDArray[_np.float64]:
         if a.dtype.kind not in "fiub":
             raise TypeError(a.dtype)
         if isinstance(x, _np.ma.MaskedArray):
-            a = x.astype(_np.float64).filled(_np.nan)
+            a = x.astype(_np.float64).filled(_np.nan)  # type: ignore[attr-defined]
         return _np.ascontiguousarray(a, dtype=_np.float64).reshape(a.shape)
     except (TypeError, ValueError) as e:
         raise WrongUsage(f"{name}: not an array of numbers ({e})") from None
@@ -263,7 +265,7 @@ def _words(x: str | Iterable[str]) -> list[str]:
 
 def _settings(parameters: Mapping[str, Values]) -> list[tuple[str, list[float], str]]:
     """Parameters as the module takes them: a name, its numbers, and its text."""
-    all_of_them = []
+    all_of_them: list[tuple[str, list[float], str]] = []
     for name, value in parameters.items():
         if isinstance(value, str):
             if name != "metal":
@@ -281,18 +283,18 @@ def _model(model: Model, parameters: Mapping[str, Values]) -> _gonio.Model:
     return _gonio.model(_os.fspath(model), _settings(parameters))
 
 
-_Function = TypeVar("_Function", bound=Callable[..., Any])
+_Result = TypeVar("_Result")
 _examples = {"fix": '{"f0": 0.05}', "bounds": '{"alpha": (0.05, 0.5)}'}
 
 
-def _with_options(options: type[Any], rest: str = "") -> Callable[[_Function], _Function]:
+def _with_options(options: type[Any], rest: str = "") -> Callable[[Callable[..., _Result]], Callable[..., _Result]]:
     """Function whose keywords are those that a struct of the program declares, with their defaults, and their meanings in its doc.
 
     It is called with ``options`` made of them; others go to ``rest``.
     """
     declared = {name: (annotation, about, _default(annotation, word)) for name, annotation, about, word in options.declared()}
 
-    def declare(function: _Function) -> _Function:
+    def declare(function: Callable[..., _Result]) -> Callable[..., _Result]:
         own = _inspect.signature(function)
         kept = [p.replace(default=declared[p.name][2]) if p.name in declared else p for p in own.parameters.values() if p.name != "options"]
         last = [kept.pop()] if rest else []
@@ -301,7 +303,7 @@ def _with_options(options: type[Any], rest: str = "") -> Callable[[_Function], _
         signature = own.replace(parameters=kept + last)
 
         @_functools.wraps(function)
-        def call(*positions: Any, **named: Any) -> Any:
+        def call(*positions: Any, **named: Any) -> _Result:
             given = signature.bind(*positions, **named).arguments
             taken = {name: given.pop(name) for name in declared if name in given}
             others = given.pop(rest, {})
@@ -311,7 +313,7 @@ def _with_options(options: type[Any], rest: str = "") -> Callable[[_Function], _
         call.__signature__ = signature  # type: ignore[attr-defined]
         meanings = [f"{name}: {about}{', as ' + _examples[name] if name in _examples else ''}." for name, (_, about, _) in declared.items()]
         call.__doc__ = (function.__doc__ or "").replace("{options}", "\n        ".join(meanings))
-        return call  # type: ignore[return-value]
+        return call
     return declare
 
 
@@ -319,7 +321,8 @@ def _default(annotation: str, word: str) -> Any:
     """A declared default; None where there is no word for it."""
     if annotation.startswith("Iterable"):
         return ()
-    read = {"int": int, "float": float, "bool": "true".__eq__}.get(annotation, str)
+    known: dict[str, Callable[[str], Any]] = {"int": int, "float": float, "bool": "true".__eq__}
+    read = known.get(annotation, str)
     return read(word) if word else None
 
 
@@ -355,6 +358,10 @@ def inspect(table: Table | Path) -> Document:
     return Document(_gonio.inspect((table if isinstance(table, Table) else read(table))._table))
 
 
+@_overload
+def fit(table: Table | Path, model: str = "", *, models: None = None, jobs: int = 0, **options: Any) -> Fit: ...
+@_overload
+def fit(table: Table | Path, model: str = "", *, models: str | Iterable[str], jobs: int = 0, **options: Any) -> Document: ...
 @_with_options(_gonio.HowFitted)
 def fit(table: Table | Path, model: str = "", *, models: str | Iterable[str] | None = None, jobs: int = 0,
         options: _gonio.HowFitted) -> Fit | Document:
@@ -410,13 +417,13 @@ def eval(model: Model | Table, theta_i: _npt.ArrayLike, phi_i: _npt.ArrayLike, t
 
     Source: ``models`` names the paper of each term.
     """
-    columns, shape = _columns(theta_i, phi_i, theta_o, phi_o)
+    (a, b, c, d), shape = _columns(theta_i, phi_i, theta_o, phi_o)
     if isinstance(model, Table):
         if parameters:
             raise WrongUsage("parameters go with a model, not with a table")
-        f = _gonio.interpolate(model._table, *columns)
+        f = _gonio.interpolate(model._table, a, b, c, d)
     else:
-        f = _gonio.evaluate(_model(model, parameters), *columns, jobs)
+        f = _gonio.evaluate(_model(model, parameters), a, b, c, d, jobs)
     return _np.moveaxis(f.reshape(f.shape[:1] + shape), 0, -1)
 
 

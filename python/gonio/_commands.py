@@ -13,7 +13,6 @@ from typing import Any, Literal
 from ._document import Document, Path
 from ._gonio import BadInput, Error, WrongUsage
 from ._own import OwnModel
-from ._own import OwnModel
 from ._program import PROGRAM
 
 Target = Literal["gltf", "mitsuba", "standard_surface", "open_pbr", "usd_preview"]
@@ -21,7 +20,7 @@ Target = Literal["gltf", "mitsuba", "standard_surface", "open_pbr", "usd_preview
 
 def _run(command: str, words: list[Path], options: dict[str, Any]) -> str:
     """Standard output of the program, which an interrupt ends, too."""
-    call = [_os.environ.get("GONIO_PROGRAM") or _os.fspath(PROGRAM), command, *map(_os.fspath, words)]
+    call = [_os.environ.get("GONIO_PROGRAM") or _os.fspath(PROGRAM), command, *(_os.fspath(word) for word in words)]
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
         if value is True:
@@ -44,12 +43,6 @@ def _run(command: str, words: list[Path], options: dict[str, Any]) -> str:
 @_contextmanager
 def _as_file(thing: Any, ending: str) -> Iterator[Path]:
     """The path of a table, of a document or of a model of one's own, written where it has none."""
-    if isinstance(thing, OwnModel):
-        with _tempfile.TemporaryDirectory(prefix="gonio-") as folder:
-            with open(_os.path.join(folder, thing.split(":")[0]), "w", encoding="utf-8") as file:
-                file.write(thing.text)
-            yield _os.path.join(folder, thing)
-        return
     if isinstance(thing, (str, _os.PathLike)) and not isinstance(thing, OwnModel):
         yield thing
         return
@@ -199,6 +192,20 @@ def fit_map(stack: Path, output: Path, model: str | None = None, **options: Any)
     """
     with _as_file(model or "", ".json") as m:
         return Document(_run("fit_map", [stack], {"model": m or None, **options, "output": output, "json": True}))
+
+
+def stack(lamps: Path, output: Path, **options: Any) -> Document:
+    """Makes the stack of a map from photographs and the list of their lamps: the document of ``gonio stack --json``.
+
+    Args:
+        lamps: the list, ``.lp``.
+        output: the document to write; the images lie in its folder or below.
+        options: those of the program, as ``linear=True``, ``white=0.8``.
+
+    Raises:
+        WrongUsage, BadInput: as ``compare``.
+    """
+    return Document(_run("stack", [lamps], {**options, "output": output, "json": True}))
 
 
 def report(name: str, output: Path = "reports", **options: Any) -> str:

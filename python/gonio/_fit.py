@@ -149,10 +149,10 @@ class Fit(Document):
             f"<tr><td>{_html.escape(p.name)}</td><td>{_html.escape('' if p.value.size == 1 else channel)}</td><td>{v:.5g}</td>"
             f"<td>{'' if _math.isnan(e) else f'± {e:.2g}'}</td><td>{_html.escape(status)}</td></tr>"
             for p in self.params for v, e, status, channel in zip(p.value, p.std_error, p.status, self["channels"]))
-        told = "".join(f"<li>{_html.escape(w)}</li>" for w in self.warnings)
+        warnings = "".join(f"<li>{_html.escape(w)}</li>" for w in self.warnings)
         return (f"<p><b>{_html.escape(self['model'])}</b>, typically a factor {self.typical_factor:.4g} off</p>"
                 f"<table><tr><th>parameter</th><th>channel</th><th>value</th><th>standard error</th><th>status</th></tr>{rows}</table>"
-                + (f"<ul>{told}</ul>" if told else ""))
+                + (f"<ul>{warnings}</ul>" if warnings else ""))
 
 
 def _parameter(name: str, p: dict[str, Any]) -> Parameter:

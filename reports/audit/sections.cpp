@@ -232,11 +232,11 @@ std::string audit_page_html(const std::vector<EntryAudit>& all) {
         [&](const auto& e) { return std::ranges::find(e.violates, law) != e.violates.end(); });
   };
   Page out{"", "audit", "The catalogue, audited", "The catalogue, audited"};
-  out.findings = {
-      fmt::format("Of {} that are shipped or published, {} are mistakes (they differ from the form "
-                  "they are named for) and {} break a law that a BRDF should keep.",
-                  many(all.size(), "form"), count_of([](const auto& e) { return e.mistake; }),
-                  count_of([](const auto& e) { return !e.violates.empty(); }))};
+  out.findings = {fmt::format(
+      "Among {} that are shipped or published, {} are mistakes (they differ from the form "
+      "they are named for) and {} break a law that a BRDF should keep.",
+      many(all.size(), "form"), count_of([](const auto& e) { return e.mistake; }),
+      count_of([](const auto& e) { return !e.violates.empty(); }))};
   std::string facts;
   for (const auto& [name, law] : {std::pair{"not normalised", "normalisation"},
                                   {"not reciprocal", "reciprocity"},
@@ -260,8 +260,9 @@ std::string audit_page_html(const std::vector<EntryAudit>& all) {
             "included, and over directions. ∫ D cos θ should be 1. “Most albedo” is the largest "
             "share of light from one direction that leaves again, at F = 1 and white: above 1 "
             "light is made. A distribution without a masking of its own is not judged by it; an "
-            "uncoupled diffuse term is judged by itself. What engines ship without 1/π, for lights "
-            "that bring it along, is divided by π throughout. “Off by at most” is the distance to "
+            "uncoupled diffuse term is judged by itself. Forms that engines ship without 1/π, for "
+            "lights that bring it along, are divided by π throughout. “Off by at most” is the "
+            "distance to "
             "the form named below it."}};
   out.wide = true;
   Pictures pictures;

@@ -51,13 +51,14 @@ void exact_is_slow(Findings& to, const CostRows& r) {
   if (!schlick || !exact || !model || !exact_model) return;
   const double term = exact->time.ns / schlick->time.ns,
                whole = exact_model->time.ns / model->time.ns;
-  to.judge("the exact Fresnel equations are slow", "",
-           verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
-           fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
-           fmt::format(
-               "for a dielectric the term alone takes {:.1f} times as long as Schlick's. A whole "
-               "GGX model composed with it takes {:.2f} times as long, in float columns in cache.",
-               term, whole));
+  to.judge(
+      "the exact Fresnel equations are slow", "",
+      verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
+      fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
+      fmt::format(
+          "for a dielectric the term by itself takes {:.1f} times as long as Schlick's. A whole "
+          "GGX model composed with it takes {:.2f} times as long, in float columns in cache.",
+          term, whole));
 }
 
 void pow5(Findings& to, const CostRows& r) {
@@ -74,7 +75,7 @@ void pow5(Findings& to, const CostRows& r) {
       fmt::format("pow {}, Pow5 {}", ns(by_pow->time), ns(by_hand->time)),
       fmt::format(
           "in a loop that the compiler makes vectors of where it can, pow takes {:.1f} times as "
-          "long. What the two give differs by rounding alone.",
+          "long. Their values differ only by rounding.",
           ratio));
 }
 

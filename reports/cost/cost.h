@@ -100,7 +100,7 @@ struct CostOptions {
   int processes = 1;
   std::string program{};  ///< of which they are: `gonio`; empty: this process measures
 };
-/// Quick: streaming in the best instruction set alone; full: in all of them, and more processes.
+/// Standard: streaming in the best instruction set alone; full: in all of them, and more processes.
 CostOptions cost_options(bool full);
 
 /// Name of those that stream: "columns of 8 MiB", of floats.

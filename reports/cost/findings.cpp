@@ -26,7 +26,7 @@ std::string ns_text(const Timing& t) {
 /// Error in words: what rounding alone leaves has no figure.
 std::string error_text(double e) {
   constexpr double rounding = 1e-5;
-  return e < rounding ? "that of rounding alone" : fmt::format("{:.2g}", e);
+  return e < rounding ? "that of only rounding" : fmt::format("{:.2g}", e);
 }
 std::string capital(std::string text) {
   if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
@@ -91,7 +91,7 @@ class Sayings {
   }
   /// "takes 0.28 ± 0.02 ns more of a sample than", or that nothing tells them apart.
   static std::string takes(const CostSwitch& s) {
-    if (!s.differs) return "takes no time of a sample that can be told from that of";
+    if (!s.differs) return "takes the same time of a sample as";
     return fmt::format("takes {} ns {} of a sample than", with_spread(std::abs(s.ns), s.ns_spread),
                        s.ns > 0 ? "more" : "less");
   }
@@ -139,7 +139,8 @@ class Sayings {
       if (r.pareto && !r.tie) on.push_back(&r);
     }
     if (on.empty()) return;
-    say("Of {} masking forms held against height-correlated Smith, {} worth their time in cache: "
+    say("Among {} masking forms compared with height-correlated Smith, {} worth their time in "
+        "cache: "
         "no other is as exact and faster. {} more may be, but tie with one as exact or more.",
         all, on.size() == 1 ? "one is" : fmt::format("{} are", on.size()), number_or_none(ties));
     std::ranges::sort(on, {}, [](const CostRow* r) { return -r->error.rms; });
@@ -163,8 +164,8 @@ class Sayings {
     say("GGX with height-correlated Smith and Schlick takes {} of a float sample in cache, fused "
         "into one loop.",
         ns_text(fused->time));
-    say("Written by hand it takes {:.2f} ns, composed of its terms at run time {:.2f} ns; its "
-        "division and two roots alone take {:.2f} ns.",
+    say("Written by hand it takes {:.2f} ns, composed of its terms at run time {:.2f} ns; only its "
+        "division and two roots take {:.2f} ns.",
         by_hand->time.ns, composed->time.ns, roots->time.ns);
     say("In {} it takes {:.2f} ns, where reading four columns and writing one takes {:.2f} ns.",
         long_columns(r_.options), far->time.ns, columns->time.ns);
@@ -244,7 +245,7 @@ class Sayings {
     const auto *plain = at("sampling.ggx.d"), *disk = at("sampling.ggx.vndf2018"),
                *caps = at("sampling.ggx.caps"), *bounded = at("sampling.ggx.bounded");
     if (!plain || !disk || !caps || !bounded) return;
-    say("Visible normals reach an error in {} of the time that normals by D alone take, at "
+    say("Visible normals reach an error in {} of the time that normals by D take, at "
         "roughness 0.5 and NoV 0.5.",
         short_text(us_to_percent(*caps) / us_to_percent(*plain)));
     say("Spherical caps draw a light in {} and Heitz's disk of 2018 in {}, both with the same "
@@ -270,7 +271,7 @@ class Sayings {
         "Blinn–Phong, {}.",
         short_text(karis->mirror_rms), short_text(materialx->mirror_rms),
         short_text(lazarov->mirror_rms));
-    say("Our formula of a mirror's albedo alone leaves {} in {}.", short_text(ours->mirror_rms),
+    say("Our formula of only a mirror's albedo leaves {} in {}.", short_text(ours->mirror_rms),
         in_ns(ours->time));
   }
   /// Costs of a whole model's switches in a frame.

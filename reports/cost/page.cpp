@@ -78,7 +78,7 @@ struct Description<CostRow> {
               "CIEDE2000 of gold in even light, at most"),
         field("bytes", "", &R::bytes, "of tables"),
         field("ops_block", "", block_operations,
-              "of the parameters alone: once per block, and per sample where they vary")};
+              "only of the parameters: once per block, and per sample where they vary")};
   }
   template <std::size_t... K>
   static constexpr auto operations(std::index_sequence<K...>) {

@@ -137,7 +137,7 @@ struct CrossFitOptions {
   std::vector<std::string> forms{};  ///< names of forms, beside "exact"; empty: all
   bool published = false;            ///< published fits too
 };
-/// Quick: by 0.1 in roughness; full: by 0.05, and more materials.
+/// Standard: by 0.1 in roughness; full: by 0.05, and more materials.
 CrossFitOptions cross_fit_options(bool full);
 
 CrossFitRows cross_fit_rows(const CrossFitOptions&, const ReportProgress& done = {});

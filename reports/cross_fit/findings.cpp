@@ -300,8 +300,8 @@ void trust(Findings& to, const CrossFitRows& r) {
                    : fmt::format("Of {} fits {} did not converge.", r.cases.size(), lost));
   if (bounds > 0)
     to.say(
-        fmt::format("Of {} fitted parameters {} ended at a bound or were not determined: no "
-                    "shift is told of them.",
+        fmt::format("Of {} fitted parameters {} ended at a bound or were not determined; their "
+                    "shift is unknown.",
                     values, bounds));
   if (error > 0)
     to.say(

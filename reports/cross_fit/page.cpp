@@ -91,7 +91,7 @@ inline constexpr auto description<CrossRange> = std::tuple{
     Field{"layout", &CrossRange::layout, "set of directions"},
     Field{"directions", [](const CrossRange& r) { return words_of_layout(r.layout); }, "in words"},
     Field{"least", &CrossRange::least,
-          "shift over the roughnesses, of F0 as a part of the truth; null: no fit tells"},
+          "shift over the roughnesses, of F0 as a part of the truth; null: no fit shows it"},
     Field{"most", &CrossRange::most, "the same"},
     Field{"fits", &CrossRange::fits, "values that were fitted, one a channel"},
     Field{"at_bound", &CrossRange::at_bound, "of them at a bound, or not determined"}};

@@ -64,7 +64,7 @@ struct DiffuseOptions {
   std::size_t pixels = 48;            ///< along the picture of a ball
   std::vector<std::string> forms{};   ///< ids; empty: all
 };
-/// Quick: by 0.1 in roughness and mu; full: by 0.05.
+/// Standard: by 0.1 in roughness and mu; full: by 0.05.
 DiffuseOptions diffuse_options(bool full);
 
 DiffuseRows diffuse_rows(const DiffuseOptions&, const ReportProgress& done = {});

@@ -240,7 +240,7 @@ struct EnergyOptions {
   std::size_t views = 16;        ///< in each light
   std::size_t lit_points = 256;  ///< of a ball under a single light
 };
-/// Quick: by 0.05 in roughness and mu; full: by 0.025.
+/// Standard: by 0.05 in roughness and mu; full: by 0.025.
 EnergyOptions energy_options(bool full);
 
 std::vector<EnergyForm> energy_forms(const EnergyOptions&, const std::function<void(double)>& done);

@@ -214,7 +214,7 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
            fmt::format("{} leaves at roughness {:g}", percent(rough.albedo), rough.roughness),
            fmt::format("it dims more than that. With nothing absorbed, one bounce under GGX "
                        "reflects {} of the light where it is smoothest, and {} at roughness {:g}. "
-                       "What is missing met a second facet.",
+                       "The missing light met a second facet.",
                        percent(smooth.albedo), percent(rough.albedo), rough.roughness));
 }
 

@@ -63,8 +63,7 @@ constexpr std::string_view mu_meaning = "cosine of the angle to the normal, or \
 
 template <>
 inline constexpr auto description<EnergyRow> = std::tuple{
-    Field{"form", [](const EnergyRow& r) { return r.form->name; },
-          "name that tells it from the others"},
+    Field{"form", [](const EnergyRow& r) { return r.form->name; }, "name, unlike the others"},
     Field{"ndf", [](const EnergyRow& r) { return r.form->ndf; }, "id"},
     Field{"masking", [](const EnergyRow& r) { return r.form->masking; }, "id"},
     Field{"roughness", [](const EnergyRow& r) { return r.at->roughness; }, ""},
@@ -79,7 +78,7 @@ inline constexpr auto description<EnergyRow> = std::tuple{
 
 template <>
 inline constexpr auto description<EnergyForm> = std::tuple{
-    Field{"form", &EnergyForm::name, "name that tells it from the others"},
+    Field{"form", &EnergyForm::name, "name, unlike the others"},
     Field{"ndf", &EnergyForm::ndf, "id"},
     Field{"masking", &EnergyForm::masking, "id"},
     Field{"model", &EnergyForm::model, "id of a whole model, else empty"},
@@ -135,7 +134,7 @@ inline constexpr auto description<CompensationCost> = std::tuple{
     Field{"lookups", &CompensationCost::lookups,
           "bilinear, beside those that single scattering needs"},
     Field{"bytes", &CompensationCost::bytes, "of its tables"},
-    Field{"without_ns", "ns", &CompensationCost::without_ns, "time of what is compensated, alone"},
+    Field{"without_ns", "ns", &CompensationCost::without_ns, "time of only what is compensated"},
     Field{"without_spread_ns", "ns", &CompensationCost::without_spread_ns,
           "half the distance of the quartiles"},
     Field{"cost_ns", "ns", &CompensationCost::ns, "time of the same compensated"},

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <functional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -16,7 +17,9 @@ namespace gonio {
 
 struct ReportOptions {
   bool full = false;        ///< finer, some minutes
-  bool one_of_all = false;  ///< made with all others: what takes minutes alone looks at less
+  bool one_of_all = false;  ///< made with all others: what takes minutes by itself looks at less
+  bool quick = false;  ///< a first look, some seconds: fewer materials, angles, samples and repeats
+  bool all_files = true;  ///< pictures that a reader of the page chooses have files, too
   struct Light {
     std::string name;
     Environment map;
@@ -94,6 +97,7 @@ struct ReportFiles {
   Findings findings;
   Pictures pictures;
   Facts facts{};
+  std::set<std::string> linked{};  ///< ids of the pictures that have files
 };
 
 }  // namespace gonio

@@ -246,7 +246,7 @@ void fresnel_of(std::vector<Decision>& to,
     if (is_clearly_cheaper(*cheap, *taken))
       d.unless =
           head_on <= just_seen
-              ? fmt::format("it is seen head on alone: Schlick, ΔE ≤ {}", short_number(head_on))
+              ? fmt::format("it is seen only head on: Schlick, ΔE ≤ {}", short_number(head_on))
               : cheaper_text(*cheap, *taken, "ΔE ≤ " + short_number(cheap->error));
   }
   if (d.cost.starts_with('+'))
@@ -352,9 +352,8 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
   const auto table = fmt::format("RMS {:.1g}", s.rms);
   to.push_back(
       {"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
-       s.head_on
-           ? fmt::format("mean ΔE ≤ {} (the table alone: {})", short_number(*s.head_on), table)
-           : table + " of E",
+       s.head_on ? fmt::format("mean ΔE ≤ {} (only the table: {})", short_number(*s.head_on), table)
+                 : table + " of E",
        s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
        s.grazing ? fmt::format("rims are looked at: integrate there, where the mean ΔE is ≤ {}",
                                short_number(*s.grazing))

@@ -37,6 +37,10 @@ std::vector<ClaimOf> claims_of(const ReportIndex& index) {
   return out;
 }
 
+std::string setting_of(const ReportIndex& i) {
+  return i.full ? "full" : i.quick ? "quick" : "standard";
+}
+
 /// Sentence that a reader takes away from a report: its own words for that, or those that it begins with.
 std::string sentence_of(const ReportIndex::Entry& r) {
   if (!r.findings.headline.empty()) return r.findings.headline;
@@ -109,7 +113,7 @@ inline constexpr auto description<Facts::Fresnel> = std::tuple{
     Field{"kind", &Facts::Fresnel::kind, "dielectric, metal"},
     Field{"material", &Facts::Fresnel::material, ""},
     Field{"form", [](const Facts::Fresnel& f) { return name_of_form(f.form); }, "its name"},
-    Field{"form_id", &Facts::Fresnel::form, "id, with what tells a variant from it"},
+    Field{"form_id", &Facts::Fresnel::form, "id, with the difference of a variant"},
     Field{"delta_e", &Facts::Fresnel::delta_e, "greatest CIEDE2000 of the rough surface"},
     Field{"head_on", &Facts::Fresnel::head_on, "the same seen head on"}};
 template <>
@@ -118,23 +122,24 @@ inline constexpr auto description<Visibility> =
                Field{"side_by_side", &Visibility::side_by_side,
                      "CIEDE2000; below, a difference shows only side by side"}};
 template <>
-inline constexpr auto description<ReportIndex> =
-    std::tuple{constant_text("schema", "gonio.report.index/1"),
-               Field{"version", &ReportIndex::version, "of gonio"},
-               Field{"full", &ReportIndex::full, setting_meaning},
-               Field{"at_ms", "ms", &ReportIndex::at_ms, "since 1970"},
-               Field{"machine", [](const ReportIndex& i) { return i.facts.setting; }, ""},
-               Field{"decisions", [](const ReportIndex& i) { return decisions(i.facts); }, ""},
-               Field{"visible",
-                     [](const ReportIndex&) {
-                       return Visibility{just_seen, side_by_side};
-                     },
-                     "thresholds"},
-               Field{"fresnel", fresnel_grid, "forms by material"},
-               Field{"front", [](const ReportIndex& i) { return figures_json(i.front); },
-                     "masking's accuracy against time"},
-               Field{"reports", &ReportIndex::reports, ""},
-               Field{"claims", claims_of, ""}};
+inline constexpr auto description<ReportIndex> = std::tuple{
+    constant_text("schema", "gonio.report.index/1"),
+    Field{"version", &ReportIndex::version, "of gonio"},
+    Field{"full", &ReportIndex::full, setting_meaning},
+    Field{"quick", &ReportIndex::quick, "a first look: fewer materials, angles and samples"},
+    Field{"at_ms", "ms", &ReportIndex::at_ms, "since 1970"},
+    Field{"machine", [](const ReportIndex& i) { return i.facts.setting; }, ""},
+    Field{"decisions", [](const ReportIndex& i) { return decisions(i.facts); }, ""},
+    Field{"visible",
+          [](const ReportIndex&) {
+            return Visibility{just_seen, side_by_side};
+          },
+          "thresholds"},
+    Field{"fresnel", fresnel_grid, "forms by material"},
+    Field{"front", [](const ReportIndex& i) { return figures_json(i.front); },
+          "masking's accuracy against time"},
+    Field{"reports", &ReportIndex::reports, ""},
+    Field{"claims", claims_of, ""}};
 
 void add_report(
     ReportIndex& to, std::string_view name, std::string_view what, double ms, ReportFiles r) {
@@ -187,14 +192,14 @@ Cell with_aside(const std::string& text, std::string look = {}, std::string titl
 Part lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
   std::string text =
-      "What each shortcut leaves of exact Fresnel, exact Smith masking and all bounces of light. "
+      "The error that each shortcut leaves against exact Fresnel, exact Smith masking and all "
+      "bounces of light. "
       "Its cost is what one float sample takes more than with the cheap form";
   if (m && m->model_ns)
     text += fmt::format("; a whole GGX highlight takes {} ns", significant(*m->model_ns, 2));
-  text +=
-      m ? fmt::format(". Measured on {} with {} from cache, {} setting.",
-                      m->cpu.empty() ? "this machine" : m->cpu, m->isa, i.full ? "full" : "quick")
-        : fmt::format(". {} setting.", i.full ? "Full" : "Quick");
+  text += m ? fmt::format(". Measured on {} with {} from cache, {} setting.",
+                          m->cpu.empty() ? "this machine" : m->cpu, m->isa, setting_of(i))
+            : fmt::format(". {} setting.", page::capital(setting_of(i)));
   if (m && m->others && *m->others >= 0.25)
     text += fmt::format(" Meanwhile other programs kept {} of {} processors busy.",
                         plain(*m->others, 2), m->threads);
@@ -316,7 +321,7 @@ std::string index_page_html(const ReportIndex& i) {
       {"What stands behind a figure",
        "",
        {Points{{"A form is taken if it is the cheapest of those whose error does not show. Among "
-                "forms that no measurement tells apart in time, the nearest is taken, or the cheap "
+                "forms that take the same measured time, the nearest is taken, or the cheap "
                 "form itself.",
                 "Colours are those of a rough surface under even light, beside a perfect diffuser "
                 "in D65, without a tone map. A metal's true colour is that of its spectrum; three "
@@ -333,7 +338,7 @@ std::string index_page_html(const ReportIndex& i) {
   out.setting = fmt::format(
       "gonio {}, {} setting, made {:%Y-%m-%d %H:%M} UTC. All of this page is in index.json beside "
       "it.",
-      i.version, i.full ? "full" : "quick", fmt::gmtime(at));
+      i.version, setting_of(i), fmt::gmtime(at));
   return page_html(out, i.front);
 }
 

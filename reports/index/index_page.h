@@ -26,6 +26,7 @@ struct ReportIndex {
   std::int64_t at_ms = 0;  ///< when, since 1970
   Facts facts{};           ///< of all reports
   Pictures front{};        ///< masking's accuracy against its time; empty where no report has it
+  bool quick = false;      ///< a first look
 };
 /// Adds a report with what the index shows of it.
 void add_report(ReportIndex&, std::string_view name, std::string_view what, double ms, ReportFiles);

@@ -16,45 +16,89 @@ namespace gonio {
 namespace {
 
 template <class Rows>
-ReportFiles files(Report<Rows> report) {
+ReportFiles files(Report<Rows> report, const ReportOptions& o) {
   Facts known;
   if constexpr (requires { facts(report.rows); }) known = facts(report.rows);
   std::string json = to_json(report);
-  std::string html = page::page_html(report_page(report), report.pictures);
+  auto page = report_page(report);
+  page.all_files = o.all_files, page.quick = o.quick;
+  std::set<std::string> linked;
+  std::string html = page::page_html(page, report.pictures, &linked);
+  const auto& shown = report.pictures;
+  if (!shown.figures.empty()) linked.insert(shown.figures[0].id);  // which the index links to
+  if (o.all_files) {
+    for (const auto& f : shown.figures) linked.insert(f.id);
+    for (const auto& m : shown.maps) linked.insert(m.id);
+  }
   return {std::move(json),
           std::move(html),
           rows_csv(report),
           std::move(report.findings),
           std::move(report.pictures),
-          std::move(known)};
+          std::move(known),
+          std::move(linked)};
 }
 
 /// Of a report that is told nothing but how fine it is.
 template <auto options, auto report>
 ReportFiles made(const ReportOptions& o, const ReportProgress& done) {
-  return files(report(options(o.full), done));
+  return files(report(options(o.full), done), o);
 }
+// A first look: what a report has most of is thinned, and every kind of row stays.
+void look_first(EnergyOptions& o) {
+  const auto thin = [](std::vector<double>& list) {
+    std::vector<double> some;
+    for (std::size_t k = 0; k < list.size(); k += k + 2 < list.size() ? 2 : 1)
+      some.push_back(list[k]);
+    list = some;
+  };
+  thin(o.roughness), thin(o.mu);
+  o.samples = 8192, o.views = 4, o.lit_points = 64;
+}
+void look_first(CostOptions& o) {
+  o.processes = 1, o.timing = {1, 1e-4, true};
+}
+void look_first(CrossFitOptions& o) {
+  o.roughness = {0.1, 0.3, 0.5, 0.8, 1}, o.ior = {1.5}, o.metals = {"Au", "Al"}, o.gamma = {1.5};
+  o.bins = 20, o.walks = 128, o.published = false;
+}
+void look_first(ScenesOptions& o) {
+  o.materials.resize(std::min<std::size_t>(o.materials.size(), 3));
+  o.plan.samples = 512, o.plan.fresh = 8192, o.plan.directions = 16, o.verified = 4096;
+  o.pixels = 48, o.picture_samples = 16, o.map_samples = 64;
+}
+
 ReportFiles energy_files(const ReportOptions& o, const ReportProgress& done) {
   auto options = energy_options(o.full);
   options.environments = o.environments;
-  return files(energy_report(options, done));
+  if (o.quick) look_first(options);
+  return files(energy_report(options, done), o);
 }
 ReportFiles cost_files(const ReportOptions& o, const ReportProgress& done) {
   auto options = cost_options(o.full);
   options.program = o.program;
-  return files(cost_report(options, done));
+  if (o.quick) look_first(options);
+  return files(cost_report(options, done), o);
+}
+ReportFiles cross_fit_files(const ReportOptions& o, const ReportProgress& done) {
+  auto options = cross_fit_options(o.full);
+  if (o.quick) look_first(options);
+  return files(cross_fit_report(options, done), o);
 }
 
 ReportFiles stability_files(const ReportOptions& o, const ReportProgress& done) {
   using Setting = StabilityOptions::Setting;
   const auto setting = o.full ? Setting::full : o.one_of_all ? Setting::brief : Setting::quick;
-  return files(stability_report({setting}, done));
+  StabilityOptions options{setting};
+  if (o.quick) options.ids = {"ndf.ggx", "masking.smith_ggx.correlated", "fresnel.schlick"};
+  return files(stability_report(options, done), o);
 }
 
 ReportFiles scenes_files(const ReportOptions& o, const ReportProgress& done) {
   auto options = scenes_options(o.full);
   options.asset = o.asset;
-  return files(scenes_report(options, done));
+  if (o.quick) look_first(options);
+  return files(scenes_report(options, done), o);
 }
 
 constexpr std::array kinds{
@@ -67,7 +111,7 @@ constexpr std::array kinds{
     ReportKind{"schlick", "Schlick's approximation and its kin against exact Fresnel",
                made<schlick_options, schlick_report>, schlick_schema, 3},
     ReportKind{"cross_fit", "what fits with shipped approximations make of roughness, F0 and gamma",
-               made<cross_fit_options, cross_fit_report>, cross_fit_schema, 90},
+               cross_fit_files, cross_fit_schema, 90},
     ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost_files,
                cost_schema, 160},
     ReportKind{"stability", "which formulas stay stable in few bits, and from which inputs on",

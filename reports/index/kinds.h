@@ -14,7 +14,7 @@ struct ReportKind {
   std::string_view name, what;
   ReportFiles (*make)(const ReportOptions&, const ReportProgress&);
   std::string (*schema)();  ///< JSON Schema of its document
-  double weight = 1;        ///< the time it takes at the quick setting, about [s]
+  double weight = 1;        ///< the time it takes at the standard setting, about [s]
 };
 
 /// All reports, in the order of the index page.

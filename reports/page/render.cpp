@@ -52,8 +52,8 @@ std::string anchor_of(std::string_view title) {
 
 class Renderer {
  public:
-  Renderer(const Page& page, const Pictures& pictures)
-      : page_(page), pictures_(pictures), styles_(pictures.figures) {}
+  Renderer(const Page& page, const Pictures& pictures, std::set<std::string>* linked)
+      : page_(page), pictures_(pictures), linked_(linked), styles_(pictures.figures) {}
 
   std::string html() {
     std::string contents, sections;
@@ -85,7 +85,10 @@ class Renderer {
     if (page_.name.empty()) return prose(page_.setting);
     return fmt::format(
         "{} setting. {}{}Every figure of this page is in the JSON document beside it.",
-        page_.full ? "Full" : "Quick", prose(page_.setting), page_.setting.empty() ? "" : " ");
+        page_.full    ? "Full"
+        : page_.quick ? "Quick"
+                      : "Standard",
+        prose(page_.setting), page_.setting.empty() ? "" : " ");
   }
   std::string parts(const std::vector<Part>& list) {
     std::string out;
@@ -204,6 +207,8 @@ class Renderer {
                       std::string_view slice,
                       std::initializer_list<std::string_view> endings) {
     std::string files;
+    const bool links = !page_.name.empty() && (page_.all_files || !hidden_);
+    if (links && linked_) linked_->insert(p.id);
     for (const auto e : endings)
       files += fmt::format(R"(<a href="{}/{}.{}">{}</a>)", page_.name, p.id, e,
                            e == "svg"   ? "SVG"
@@ -213,7 +218,7 @@ class Renderer {
     if (!slice.empty()) note += (note.empty() ? "" : ", ") + std::string(slice);
     return fmt::format("<figcaption>{}{}{}</figcaption>", prose(p.title),
                        note.empty() ? "" : " <small>" + prose(note) + "</small>",
-                       page_.name.empty() ? "" : " " + element("span", "files", files));
+                       links ? " " + element("span", "files", files) : "");
   }
   template <class Picture>
   std::string opened(const Picture& p, const Shown& s, std::string_view look) {
@@ -375,6 +380,7 @@ class Renderer {
 
   const Page& page_;
   const Pictures& pictures_;
+  std::set<std::string>* linked_;
   CurveStyles styles_;
   std::set<std::string> ids_;
   bool hidden_ = false;  ///< what is rendered is not shown until it is chosen
@@ -382,8 +388,8 @@ class Renderer {
 
 }  // namespace
 
-std::string page_html(const Page& page, const Pictures& pictures) {
-  return Renderer(page, pictures).html();
+std::string page_html(const Page& page, const Pictures& pictures, std::set<std::string>* linked) {
+  return Renderer(page, pictures, linked).html();
 }
 
 }  // namespace gonio::page

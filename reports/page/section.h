@@ -151,11 +151,13 @@ struct Page {
   std::string command;         ///< "report schlick"
   std::string title, heading;  ///< of the window; of the page
   std::vector<std::string> findings{};
-  std::vector<Part> first{};        ///< what shows the first finding
-  bool wide = false;                ///< that needs the width of the page
-  std::vector<Section> sections{};  ///< without parts and text: left out
-  bool full = false;                ///< setting of a report
-  std::string setting{};            ///< what is said of it at the end
+  std::vector<Part> first{};         ///< what shows the first finding
+  bool wide = false;                 ///< that needs the width of the page
+  std::vector<Section> sections{};   ///< without parts and text: left out
+  bool full = false, quick = false;  ///< setting of a report
+  bool all_files =
+      true;  ///< pictures that a reader chooses have files, as those shown at first have
+  std::string setting{};  ///< what is said of it at the end
   /// Names of curves that are shown at first where there are more than can be told apart.
   std::vector<std::string> most_shipped{};
 };

@@ -258,7 +258,7 @@ Section overview(const std::vector<const BatchRow*>& fitted,
           "its rim "
           "says whether the model misses the table by more than noise. Below, how many have which "
           "value. "
-          "Of parameters with channels, the mean.",
+          "Parameters with channels stand for their mean.",
           {std::move(c)}};
 }
 

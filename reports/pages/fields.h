@@ -43,7 +43,7 @@ inline constexpr auto description<ModelSphere> = std::tuple{
     Field{"p95", &ModelSphere::p95, "95th percentile of these"},
     Field{"itp_median", &ModelSphere::itp_median, "of ΔE_ITP, white at 203 cd/m²"},
     Field{"spacing_median", &ModelSphere::spacing_median,
-          "of ΔE2000 that the spacing of the table's samples alone makes"},
+          "of ΔE2000 that the spacing of the table's samples makes by itself"},
     Field{"spacing_p95", &ModelSphere::spacing_p95, "95th percentile of these"}};
 static_assert(describes_every_member<ModelSphere>());
 

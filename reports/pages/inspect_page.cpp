@@ -144,7 +144,7 @@ Section prospects(const Health& h) {
                fmt::format("verdict-{}", name_of(p.verdict))},
           with_signs(p.because));
   return {"What a fit can hope to determine",
-          "From the data alone; what other parameters take or leave, the fit's own intervals say.",
+          "Only from the data; the fit's own intervals say what other parameters take or leave.",
           {std::move(t)}};
 }
 
@@ -311,12 +311,13 @@ Part reciprocity(const InspectPage& page, const Health& h, Pictures& pictures) {
   }
   auto note = h.reciprocity_note;
   if (const auto at = note.find("median "); at != note.npos) note.erase(at, 7);
-  out.parts.emplace_back(Prose{fmt::format(
-      "|f(wi, wo) − f(wo, wi)| over their mean. Median {}, {}.{}", percent(*h.reciprocity_error),
-      note,
-      h.noise.sigma && !h.noise.bound ? fmt::format(" The noise alone would make a median of {}.",
-                                                    percent(0.95 * *h.noise.sigma))
-                                      : "")});
+  out.parts.emplace_back(
+      Prose{fmt::format("|f(wi, wo) − f(wo, wi)| over their mean. Median {}, {}.{}",
+                        percent(*h.reciprocity_error), note,
+                        h.noise.sigma && !h.noise.bound
+                            ? fmt::format(" The noise by itself would make a median of {}.",
+                                          percent(0.95 * *h.noise.sigma))
+                            : "")});
   auto m = share_map(page.trust, "reciprocity", {}, page.trust.reciprocity);
   m.title = "Mean difference of exchanged directions";
   m.value = "mean relative difference [%]";

@@ -190,7 +190,7 @@ std::string map_page_html(const MapDocument& d) {
   shown.slots = {std::move(maps), std::move(spreads)};
   out.sections.push_back(
       {"The map",
-       fmt::format("Of {} × {} texels, spread evenly over the map.", cells.columns, cells.rows),
+       fmt::format("From {} × {} texels, spread evenly over the map.", cells.columns, cells.rows),
        {std::move(shown)}});
   out.sections.push_back(parameters_of(d));
   return page_html(out, pictures);

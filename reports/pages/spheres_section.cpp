@@ -34,9 +34,9 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
   });
   const bool several = name.empty() && s.models.size() > 1;
   const auto who = name.empty() ? s.models[best] : fmt::format("the {}", name);
-  const auto begin = several
-                         ? fmt::format("Of {} models, {} comes closest: it", s.models.size(), who)
-                         : capital(who);
+  const auto begin =
+      several ? fmt::format("Among {} models, {} comes closest: it", s.models.size(), who)
+              : capital(who);
   const auto& w = worst(shown, best, &ModelSphere::median);
   const auto& most = w.models[best];
   const double tail = worst(shown, best, &ModelSphere::p95).models[best].p95;
@@ -58,20 +58,19 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
       fmt::format("Under {}{} half of the pixels are within ΔE2000 {} and 95\u202f% within {}.",
                   w.light, shown.size() > 1 ? ", where it differs most," : "",
                   delta_e_text(most.median), delta_e_text(most.p95));
-  const auto spacing =
-      most.spacing_p95 > 0.5 * most.p95
-          ? fmt::format(
-                " Much of that is the spacing of the table's samples and not the {}: by it "
-                "alone 95\u202f% are within {}.",
-                name.empty() ? "model" : name, delta_e_text(most.spacing_p95))
-          : std::string();
+  const auto spacing = most.spacing_p95 > 0.5 * most.p95
+                           ? fmt::format(
+                                 " Much of that is the spacing of the table's samples and not the "
+                                 "{}: by itself it puts 95\u202f% within {}.",
+                                 name.empty() ? "model" : name, delta_e_text(most.spacing_p95))
+                           : std::string();
   if (most.median > hardly_seen && most.spacing_median > 0.5 * most.median)
     return fmt::format(
         "The table's samples lie too far apart to tell whether {} looks like it. {}{}{}", who, half,
         spacing, part);
   return fmt::format("{} {}. {}{}{}", begin,
                      most.median <= hardly_seen  ? "looks almost like the table"
-                     : most.median <= told_apart ? "can be told from the table"
+                     : most.median <= told_apart ? "shows in the table"
                                                  : "looks different from the table",
                      half, spacing, part);
 }
@@ -118,9 +117,8 @@ page::Table numbers(const Lights& shown, const Spheres& s, std::string_view name
     return !l.models.empty() && std::isfinite(l.models[0].spacing_median);
   });
   t.head = columns(
-      spacing
-          ? "light|>covered|>ΔE2000, half below|>95\u202f% below|>spacing alone, half|>95\u202f%"
-          : "light|>covered|>ΔE2000, half below|>95\u202f% below");
+      spacing ? "light|>covered|>ΔE2000, half below|>95\u202f% below|>only spacing, half|>95\u202f%"
+              : "light|>covered|>ΔE2000, half below|>95\u202f% below");
   for (const auto& l : s.lights) {
     const auto of = [&](double ModelSphere::*what) {
       return l.models.empty() ? Cell("–") : text(l.models[0].*what);
@@ -144,7 +142,7 @@ std::string how(const Spheres& s) {
       "luminance under each light. Covered: share of the lit pixels for which the table has values "
       "between its samples, or, where it is a list, a sample within {}° of both directions, "
       "mirrored "
-      "or swapped.{} Spacing alone: the difference between the fit and the fit known at the "
+      "or swapped.{} Only spacing: the difference between the fit and the fit known at the "
       "table's "
       "samples only.",
       Spheres::reach_deg,

@@ -315,7 +315,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
                                      {"seed", fmt::to_string(t.truth->seed)}}});
   }
   return {"What the table can be trusted for",
-          "From the data alone, before any fit. Coverage is the share of the cosine-weighted "
+          "Only from the data, before any fit. Coverage is the share of the cosine-weighted "
           "hemisphere that valid samples speak for.",
           {Group{"columns", {std::move(facts), std::move(beside)}}}};
 }

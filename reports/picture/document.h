@@ -12,7 +12,7 @@
 namespace gonio {
 
 inline constexpr std::string_view setting_meaning = "finer in roughness and angle",
-                                  findings_meaning = "sentences, made from the rows alone";
+                                  findings_meaning = "sentences, made only from the rows";
 
 Json figures_json(const Pictures&);
 Json maps_json(const Pictures&);

@@ -100,7 +100,7 @@ struct RemapOptions {
   double step = 0.0125;              ///< in roughness, of the references' E; between, E is a line
   std::vector<std::string> forms{};  ///< ids; empty: all
 };
-/// Quick: by 0.05 in roughness; full: by 0.025, and more azimuths.
+/// Standard: by 0.05 in roughness; full: by 0.025, and more azimuths.
 RemapOptions remap_options(bool full);
 
 RemapRows remap_rows(const RemapOptions&, const ReportProgress& done = {});

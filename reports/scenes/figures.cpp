@@ -59,7 +59,7 @@ void add_front(Pictures& p, const ScenesRows& r) {
       front.x.push_back(c->ns);
       front.y.push_back(error);
       front.x_error.push_back(c->ns_spread);
-      front.labels.push_back(label.empty() ? "these alone"
+      front.labels.push_back(label.empty() ? "only these"
                                            : fmt::format("{}", fmt::join(label, ", ")));
       if (!c->chosen) continue;
       chosen.x.push_back(c->ns);

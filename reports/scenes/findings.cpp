@@ -159,7 +159,7 @@ void counts(Findings& to, const ScenesRows& r) {
     if (const auto at = std::ranges::find(asked, e.effect, &Asked::effect); at != asked.end())
       at->kept += e.keep;
   const auto [least, most] = std::ranges::minmax(asked, {}, &Asked::kept);
-  to.say(fmt::format("Of {} scenes, {} keep {}, the most; {} keep {}, the fewest.", r.rows.size(),
+  to.say(fmt::format("In {} scenes, {} keep {}, the most; {} keep {}, the fewest.", r.rows.size(),
                      number_or_none(most.kept), most.name, number_or_none(least.kept), least.name));
 }
 
@@ -201,7 +201,7 @@ void verified(Findings& to, const ScenesRows& r) {
 void left_out(Findings& to, const ScenesRows& r) {
   if (r.left_out.empty()) return;
   to.say(
-      fmt::format("Of the asset, {} with textures, or otherwise no single surface, {} left out; "
+      fmt::format("In the asset, {} with textures, or otherwise no single surface, {} left out; "
                   "the page names {} at its end.",
                   r.left_out.size() == 1 ? std::string("one material")
                                          : fmt::format("{} materials", r.left_out.size()),

@@ -47,7 +47,7 @@ inline constexpr auto description<SceneEffectRow> = std::tuple{
     Field{"why", &SceneEffectRow::why, "structural, proved, measured"},
     Field{"reason", &SceneEffectRow::reason, "in words"},
     Field{"error_if_dropped", &SceneEffectRow::error_if_dropped,
-          "quantile of the differences where it alone is dropped; a bound where it is proved"},
+          "quantile of the differences where only it is dropped; a bound where it is proved"},
     Field{"ns_saved", &SceneEffectRow::ns_saved,
           "by that, in double: of f of one direction of light"},
     Field{"ops_saved", &SceneEffectRow::ops_saved, "operations, of the same"}};

@@ -83,7 +83,7 @@ void means_metal(Findings& to) {
   to.judge(
       "F0 above 0.04 means metal", "", verdict(false),
       fmt::format("{} has F0 {:.2f}", most->name, most->f0),
-      fmt::format("{} dielectrics that were measured have more. Of {} it is {:.2f}, at 550 nm.",
+      fmt::format("{} dielectrics that were measured have more. For {} it is {:.2f}, at 550 nm.",
                   of_all(above.size(), dielectrics().size()), most->name, most->f0));
 }
 

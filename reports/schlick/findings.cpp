@@ -116,10 +116,10 @@ void metal_forms(Findings& to, const SchlickRows& r) {
     if (!best || f.median < best->median) best = f;
   }
   if (!best || !plain || best->form == form_id::schlick) return;
-  to.say(
-      fmt::format("Of the forms for smooth metals {} is nearest: its RMS over the angle is {:.2g} "
-                  "for the median channel, Schlick's {:.2g}.",
-                  in_text(best->form), best->median, plain->median));
+  to.say(fmt::format(
+      "Among the forms for smooth metals {} is nearest: its RMS over the angle is {:.2g} "
+      "for the median channel, Schlick's {:.2g}.",
+      in_text(best->form), best->median, plain->median));
 }
 
 void variants(Findings& to, const SchlickRows& r) {
@@ -193,7 +193,7 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
       // F0 is exact there, but for what lies beyond the gamut
       if (const double cut = *std::ranges::min_element(c.delta_e); cut > 0.5)
         to.say(
-            fmt::format("The colour of {} lies beyond sRGB: cut to it, F0 alone changes it by "
+            fmt::format("The colour of {} lies beyond sRGB: cut to it, F0 by itself changes it by "
                         "ΔE2000 {:.2g} or more, seen head on.",
                         c.material, cut));
   double most = 0;

@@ -84,7 +84,7 @@ struct SchlickOptions {
   std::size_t angles;             ///< equal steps of θ
   std::vector<double> roughness;  ///< ascending
 };
-/// Quick: IOR by 0.02, θ by 0.1°; full: by 0.01 and 0.01°.
+/// Standard: IOR by 0.02, θ by 0.1°; full: by 0.01 and 0.01°.
 SchlickOptions schlick_options(bool full);
 
 std::vector<FresnelRow> smooth_rows(const SchlickOptions&, const std::function<void(double)>& done);

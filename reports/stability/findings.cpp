@@ -53,7 +53,7 @@ void which_alpha(Findings& to, const StabilityRows& r) {
       fmt::format("GGX in half precision keeps {} from {} on, if the shader computes |n × h|².",
                   percent(cross->tolerance, 1), from_text(*cross));
   if (cross->safe_from)
-    answer += fmt::format(" A clamp there changes surfaces of a roughness below {:.2g} alone.",
+    answer += fmt::format(" A clamp there changes only surfaces of a roughness below {:.2g}.",
                           std::sqrt(*cross->safe_from));
   if (const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed"))
     answer += fmt::format(" Where it rounds NoH to half instead, it does so from {} on.",
@@ -140,9 +140,9 @@ void any_gpu(Findings& to, const StabilityRows& r) {
     const auto cross = bound("cross"), cosine = bound("cosine");
     if (cross) text += fmt::format(" GGX from |n × h|² errs by {} at most", percent(*cross, 2));
     if (cross && cosine)
-      text += fmt::format("; from NoH alone {} is all that is proved.", percent(*cosine, 2));
+      text += fmt::format("; only from NoH, {} is all that is proved.", percent(*cosine, 2));
     else if (cross)
-      text += "; from NoH alone nothing is proved.";
+      text += "; only from NoH, nothing is proved.";
     to.say(std::move(text));
   }
 }

@@ -8,7 +8,7 @@ template <>
 inline constexpr auto description<StabilityRow> = std::tuple{
     Field{"id", &StabilityRow::id, "of the catalogue"},
     Field{"form", &StabilityRow::form,
-          "how its angles are given: cross, |n × h|²; cosine, NoH alone; frame, facet (VoH), "
+          "how its angles are given: cross, |n × h|²; cosine, only NoH; frame, facet (VoH), "
           "cosines (NoL, NoV), directions"},
     Field{"number", &StabilityRow::number,
           "half, mixed, float, double; flushed: results below the least normal number become "

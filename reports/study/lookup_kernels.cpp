@@ -95,7 +95,7 @@ constexpr LookupKernel table[] = {{"split_sum.table", "table", true, bilinear, n
                                   of<Karis>("split_sum.karis", "Karis's formula"),
                                   of<Lazarov>("split_sum.lazarov", "Lazarov's formula"),
                                   of<Materialx>("split_sum.materialx", "MaterialX's formula"),
-                                  of<Ours>("split_sum.ours", "our formula, of A + B alone")};
+                                  of<Ours>("split_sum.ours", "our formula, only of A + B")};
 
 }  // namespace
 

@@ -78,7 +78,7 @@ Vector3<T> on_cap(const T& u, const T& w, const T& low) {
 /// [Walter et al. 2007, Eq. 35]
 template <Real T>
 struct GgxNormals {
-  static constexpr std::string_view id = "sampling.ggx.d", name = "normals by D alone";
+  static constexpr std::string_view id = "sampling.ggx.d", name = "normals by D only";
   static Vector3<T> light(const Vector3<T>& v, const T& alpha, const T& u, const T& w) {
     using namespace sampling;
     const T tangent = alpha * sqrt(u / max<T>(1 - u, constant<T>(1e-7L))), phi = two_pi<T>() * w;

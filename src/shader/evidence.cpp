@@ -106,7 +106,7 @@ std::vector<std::string> evidence_of(const TracedFormula& f,
   }
   if (f.terms.empty())
     sentences.emplace_back(
-        "What its roundings cost was not looked at: gonio stability asks of terms and models.");
+        "Its roundings were not measured: gonio stability looks at terms and models.");
   if (f.is_model && !is_foreign(f.id)) {  // a file's function is one term, looked at above
     progress(f.id);
     Question q;

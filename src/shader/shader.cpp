@@ -255,9 +255,8 @@ std::string header(const TracedFormula& f,
   text += comment("operations: " + text_of(operations));
   if (f.derivatives > 0)
     text += comment(
-        "What is known of the error is of the value: that of its derivatives is not, and in half "
-        "they may overflow "
-        "where the value does not.");
+        "The known error is that of the value. The error of its derivatives is unknown, and in "
+        "half they may overflow where the value does not.");
   for (const auto& remark : w.remarks) text += comment(remark);
   return text;
 }

@@ -37,10 +37,9 @@ struct Description<stability::Answer> {
               "results below the least normal number become 0"),
         field("contract", at(&A::arithmetic, &stability::Arithmetic::contract),
               "a b + c is rounded once"),
-        field(
-            "any_gpu", at(&A::arithmetic, &stability::Arithmetic::any_gpu),
-            "all that Vulkan allows a GPU: proofs alone establish, and what was looked at is IEEE "
-            "arithmetic, which is one of those allowed"),
+        field("any_gpu", at(&A::arithmetic, &stability::Arithmetic::any_gpu),
+              "all that Vulkan allows a GPU: only proofs establish, and what was looked at is IEEE "
+              "arithmetic, which is one of those allowed"),
         field("domain", &A::domain, "ends of each input"),
         field("requirement", &A::requirement, "finite, nonnegative, relative=X or absolute=X"),
         field("evidence", &A::evidence,

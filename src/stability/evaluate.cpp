@@ -42,7 +42,7 @@ std::vector<double> rounded(const Subject& s, Number number, std::span<const dou
 
 double value_of(const Subject& s, const Arithmetic& a, std::span<const double> inputs) {
   if (a.number != Number::half && (a.flush || a.contract))
-    throw wrong_usage(fmt::format("{}: flushing and contraction are known in half alone, not in {}",
+    throw wrong_usage(fmt::format("{}: flushing and contraction are known only in half, not in {}",
                                   s.id, name_of(a.number)));
   switch (a.number) {
     case Number::half:

@@ -9,10 +9,13 @@
 //   ```python   the same as sh, but that each block is a program of its own, run with the module
 //               for Python; left out with a line where that is not built.
 //   ```json     a document, parsed
+//   ```yaml     a file of docs/examples, whole, which a comment above names: <!-- file:
+//   docs/examples/… -->
 //   ```console  not run, below a comment that says why: <!-- not run: it builds gonio -->
 //
 // Above a block <!-- long --> keeps it for GONIO_LONG, <!-- long under a sanitizer --> for runs
-// without one.  <!-- yours: sky.exr --> brings a file that a reader has.
+// without one.  <!-- yours: sky.exr --> brings a file, or a folder of docs/examples, that a reader
+// has.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -50,7 +53,7 @@ std::vector<std::string> pages() {
 }
 
 struct Block {
-  std::string kind;    ///< sh, python, text, json, console
+  std::string kind;    ///< sh, python, text, json, yaml, console
   std::string before;  ///< the comment above, or nothing
   std::size_t line;    ///< of its first line, from 1
   std::vector<std::string> lines;
@@ -60,7 +63,7 @@ struct Block {
 struct Document {
   std::vector<Block> blocks;
   std::vector<std::string> prose;  ///< paragraphs, without tables, headings and code
-  std::set<std::string> yours, links;
+  std::set<std::string> yours, downloaded, links;
 };
 
 std::string inner(const std::string& line, const std::string& head) {
@@ -89,6 +92,8 @@ Document read_document(const std::string& page) {
     } else if (line.starts_with("<!-- yours: ")) {
       std::istringstream names(inner(line, "<!-- yours: "));
       for (std::string n; names >> n;) d.yours.insert(n);
+    } else if (line.starts_with("<!-- public: ")) {
+      d.downloaded.insert(inner(line, "<!-- public: "));
     } else if (line.starts_with("<!--")) {
       comment = line;
     } else if (line.empty()) {
@@ -194,6 +199,8 @@ void bring(const Folder& f, const std::string& name) {
     f.write(name, text + "\n");
   } else if (name == "run30.txt") {
     f.write(name, "angle brdf\n10 0.4\n20 0.6\n30 0.8\n40 0.6\n");
+  } else if (fs::is_directory(root / "docs/examples" / name)) {
+    fs::copy(root / "docs/examples" / name, f / name, fs::copy_options::recursive);
   } else {
     ADD_FAILURE() << "no test knows how to bring " << name;
   }
@@ -321,6 +328,12 @@ TEST_P(Page, IsRunAsWrittenAndPrintsWhatItShows) {
   const auto document = read_document(GetParam());
   const Folder f;
   for (const auto& name : document.yours) bring(f, name);
+  for (const auto& name : document.downloaded) {
+    const auto path = shared("data/" + name);
+    if (path.empty())
+      GTEST_SKIP() << GetParam() << " needs ../shared/data/" << name << ", which is not here";
+    f.write(fs::path(name).filename().string(), read_bytes(path));
+  }
   // One script whose lines have the page's numbers, so that what fails is told by its line there.
   std::string script;
   std::size_t line = 1, run = 0;
@@ -397,6 +410,11 @@ TEST_P(Page, HasOnlyBlocksThatAreRunOrSayWhyNot) {
       std::string text;
       for (const auto& l : b.lines) text += l + "\n";
       EXPECT_TRUE(nlohmann::json::accept(text));
+    } else if (b.kind == "yaml") {
+      ASSERT_TRUE(b.before.starts_with("<!-- file: ")) << b.before;
+      std::string text;
+      for (const auto& l : b.lines) text += l + "\n";
+      EXPECT_EQ(text, read_bytes((root / inner(b.before, "<!-- file: ")).string()));
     } else if (b.kind == "text") {
       EXPECT_TRUE(b.follows && above && (*above == "sh" || *above == "python"))
           << "of which block?";

@@ -1,6 +1,7 @@
 // gonio report: what it refuses, before any work is done.
 #include <algorithm>
 #include <filesystem>
+#include <regex>
 #include <set>
 
 #include "cli/program.h"
@@ -61,6 +62,27 @@ TEST(ReportCommand, WritesEveryPictureBesideThePage) {
   const std::string rows = read_bytes(f / "out/schlick.csv");
   EXPECT_EQ(static_cast<std::size_t>(std::ranges::count(rows, '\n')), 1 + data["rows"].size());
   EXPECT_TRUE(rows.starts_with("form,kind,name,")) << rows.substr(0, 80);
+}
+
+TEST(ReportCommand, WritesOnlyThePicturesThatThePageLinksToWhereItIsAskedFor) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, "report diffuse -o out --pictures first").code, 0);
+  const auto page = read_bytes(f / "out/diffuse.html");
+  const auto data = nlohmann::json::parse(read_bytes(f / "out/diffuse.json"));
+  std::set<std::string> expected{"diffuse.html", "diffuse.json", "diffuse.csv"};
+  std::size_t all = 0;
+  for (const auto& p : data["figures"]) {
+    ++all;
+    EXPECT_GT(p["curves"].size(), 0U) << "the document has every picture's values";
+  }
+  const std::regex link("href=\"(diffuse/[a-z0-9_]+\\.[a-z]+)\"");
+  for (std::sregex_iterator at(page.begin(), page.end(), link), none; at != none; ++at)
+    expected.insert((*at)[1]);
+  const auto first = data["figures"][0]["id"].get<std::string>();  // the index leads to it
+  for (const char* ending : {".svg", ".csv"}) expected.insert("diffuse/" + first + ending);
+  EXPECT_EQ(files_below(f / "out"), expected);
+  EXPECT_GT(expected.size(), 5U);
+  EXPECT_LT(expected.size(), all) << "two files a picture";
 }
 
 TEST(ReportCommand, TakesAwayThePicturesThatOnlyAnEarlierRunHas) {

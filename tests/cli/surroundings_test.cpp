@@ -1,6 +1,7 @@
 // The program where things go wrong around it: full disks, kills, limits, closed streams.
 #include <csignal>
 #include <map>
+#include <regex>
 
 #include "cli/program.h"
 
@@ -187,7 +188,14 @@ TEST(Surroundings, TheVersionIsThatOfTheProject) {
   const Folder f;
   const std::string project = read_bytes(project_folder() + "/CMakeLists.txt");
   const auto at = project.find("project(gonio VERSION ") + 22;
-  EXPECT_EQ(gonio(f, "--version").out, project.substr(at, project.find(' ', at) - at) + "\n");
+  const std::string first = project.substr(at, project.find(' ', at) - at) + "\n";
+  const auto said = gonio(f, "--version").out;
+  EXPECT_EQ(said.substr(0, first.size()), first);
+  EXPECT_TRUE(std::regex_match(
+      said.substr(first.size()),
+      std::regex("commit ([0-9a-f]{12,}( with changes)?|unknown), (g\\+\\+|clang) [0-9.]+.*, "
+                 "vector units here: .*sse2.*\n")))
+      << said;
 }
 
 TEST(Surroundings, AVectorUnitIsTheBestThatMayBeTaken) {

@@ -86,6 +86,16 @@ class Commands(InAFolder):
         gonio.columns("c.csv", {"theta_i": "a", "phi_i": "b", "theta_o": "c", "f": "d"})
         self.assertEqual(len(gonio.read("c.csv")), 1)
 
+    def test_make_a_stack_of_photographs_and_their_lamps(self):
+        os.environ["GONIO_PROGRAM"] = program.__globals__["PROGRAM"]
+        for name in "abc":
+            np.save(f"{name}.npy", np.full((4, 4), 0.2, np.float32))
+        Path("dome.lp").write_text("3\na.npy 0 0 1\nb.npy 1 0 1\nc.npy 0 1 1\n")
+        stack = gonio.stack("dome.lp", "stack.json", white=0.8)
+        self.assertEqual([i["path"] for i in stack["images"]], ["a.npy", "b.npy", "c.npy"])
+        self.assertAlmostEqual(stack["images"][0]["scale"], 1 / (np.pi * 0.8))
+        self.assertTrue(Path("stack.json").exists())
+
     def test_are_refused_as_the_programs_are(self):
         os.environ["GONIO_PROGRAM"] = program.__globals__["PROGRAM"]
         with self.assertRaisesRegex(gonio.WrongUsage, "nearest"):

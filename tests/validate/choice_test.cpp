@@ -65,7 +65,7 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
   refused("/domain/roughness", {0.5, 0.2}, "c.json: /domain/roughness: found ");
   refused("/domain/mu", {0, 1}, "c.json: /domain/mu: found ");
   refused("/domain/metal", "unobtainium", "c.json: /domain/metal: found ");
-  refused("/domain/eta", {1.3, 2}, "one of eta, f0, metal and fits alone");
+  refused("/domain/eta", {1.3, 2}, "only one of eta, f0, metal and fits");
   refused("/number", "wide", "c.json: /number: found ");
   refused("/scattering", "walks", "c.json: /scattering: found ");
   refused("/schema", "gonio.choice/2", "c.json: /schema: found ");

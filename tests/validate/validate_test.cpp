@@ -407,6 +407,10 @@ TEST(Validate, WritesWhatMachinesRead) {
   ASSERT_EQ(sarif["runs"][0]["results"].size(), 1U);
   EXPECT_EQ(sarif["runs"][0]["results"][0]["ruleId"], "albedo_error");
   EXPECT_EQ(sarif["runs"][0]["tool"]["driver"]["rules"].size(), 2U);
+  EXPECT_EQ(sarif["runs"][0]["automationDetails"]["id"], "gonio/choice.json/")
+      << "so that several choices of a commit stand side by side";
+  const auto place = sarif["runs"][0]["results"][0]["locations"][0]["physicalLocation"];
+  EXPECT_EQ(place["region"]["startLine"], 1);
   const auto document = json::parse(to_json(v));
   EXPECT_EQ(document["schema"], "gonio.validation/1");
   EXPECT_EQ(document["holds"], false);

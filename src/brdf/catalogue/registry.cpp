@@ -102,7 +102,7 @@ std::size_t find_term(std::string_view id, Role role) {
   if (role == Role::diffuse &&
       std::ranges::any_of(term_entries, [&](const auto& t) { return short_id(t.id()) == id; }))
     throw wrong_usage(
-        fmt::format("'{}' alone is no diffuse term, and a lobe is NDF/MASKING/FRESNEL, as in "
+        fmt::format("'{}' by itself is no diffuse term, and a lobe is NDF/MASKING/FRESNEL, as in "
                     "ggx/smith_ggx.correlated/schlick",
                     id));
   refuse_name(id, ids, names[static_cast<std::size_t>(role)]);

@@ -101,14 +101,14 @@ class Reader {
       if (m_.anisotropy > 0) refuse_textures(extension);
     } else if (!has_no_effect(name, extension)) {
       extension.fail(fmt::format("{} of '{}'", name, name_),
-                     "KHR_materials_ior, _specular, _clearcoat or _anisotropy alone");
+                     "only KHR_materials_ior, _specular, _clearcoat or _anisotropy");
     }
   }
   /// Refuses textures among an object's keys.
   void refuse_textures(const JsonReader& object) const {
     object.visit_members([&](const std::string& key, const JsonReader& value) {
       if (key.ends_with("Texture"))
-        value.fail(fmt::format("a texture of '{}'", name_), "a material of factors alone");
+        value.fail(fmt::format("a texture of '{}'", name_), "a material of factors only");
     });
   }
 

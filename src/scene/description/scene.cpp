@@ -197,7 +197,7 @@ void resolve(std::vector<Light>& lights, const JsonReader& at, Files& files) {
         at.at(i).fail("a second environment", "one at most");
       e->map = files.environment(e->path);
     }
-  if (std::ranges::none_of(lights, shines)) at.fail("black lights alone", "one that shines");
+  if (std::ranges::none_of(lights, shines)) at.fail("only black lights", "one that shines");
 }
 
 }  // namespace

@@ -83,7 +83,7 @@ inline constexpr auto description<scene::PlannedEffect> = std::tuple{
     Field{"form", &scene::PlannedEffect::form, "in which it is computed", not_empty},
     Field{"why", &scene::PlannedEffect::why, "ground of the choice"},
     Field{"error_if_dropped", &scene::PlannedEffect::error_if_dropped,
-          "quantile of the differences where it alone takes its cheapest form; a bound of all "
+          "quantile of the differences where only it takes its cheapest form; a bound of all "
           "of them where it is proved",
           amounts},
     Field{"ns_saved", &scene::PlannedEffect::ns_saved, "by that, of f of one direction of light",

@@ -318,7 +318,7 @@ class MaterialPlanner {
     if (e.why == Why::proved)
       return fmt::format("dropping it changes no point by more than {}{:.2g}, by proof", unit,
                          e.error_if_dropped);
-    return fmt::format("dropping it alone changes {:.3g} % of the points by more than {}{:.2g}",
+    return fmt::format("dropping only this changes {:.3g} % of the points by more than {}{:.2g}",
                        100 * (1 - scene_.tolerance.quantile), unit, e.error_if_dropped);
   }
   void front(MaterialPlan& p) const {

@@ -179,7 +179,7 @@ class KlemsReader {
       for (const bool visible : {true, false})
         for (const Choice& c : found)
           if (c.direction == direction && (c.band == "Visible" || !visible)) return c;
-    fail("Layer", found.empty() ? "no WavelengthDataBlock" : "directions of transmission alone",
+    fail("Layer", found.empty() ? "no WavelengthDataBlock" : "only directions of transmission",
          fmt::format("{} or {}", kFront, kBack));
   }
 

@@ -59,7 +59,7 @@ inline constexpr auto description<Highlight> = std::tuple{
     Field{"resolved", &Highlight::resolved, "whether these are enough"},
     Field{"height", "1/sr", &Highlight::height, ""},
     Field{"base", "1/sr", &Highlight::base, "value beside the highlight"},
-    Field{"limit", &Highlight::limit, "why the width is not the surface's alone"},
+    Field{"limit", &Highlight::limit, "why the width is not only the surface's"},
     Field{"in_words", peak_in_words, ""}};
 
 template <>
@@ -76,7 +76,7 @@ inline constexpr auto description<ZenithBand> =
 
 template <>
 inline constexpr auto description<Noise> =
-    std::tuple{Field{"sigma", &Noise::sigma, "σ of ln f; null where no line of samples tells it"},
+    std::tuple{Field{"sigma", &Noise::sigma, "σ of ln f; null where no line of samples shows it"},
                Field{"bound", &Noise::bound, "whether σ is at most that"},
                Field{"along", &Noise::along, "angle that varies along the lines, or repeats"},
                Field{"channels", per_channel(&Noise::channels), "σ of each channel"},

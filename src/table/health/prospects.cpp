@@ -139,8 +139,8 @@ Prospect fresnel(const Survey& s, Verdict of_alpha, bool highlight) {
           to < 60                 ? no
           : to < 75 || !highlight ? weakly
                                   : yes,
-          fmt::format("the samples near the half vector reach theta_d = {:.0f}°; the rise that "
-                      "tells one Fresnel form from another is beyond 60°",
+          fmt::format("the samples near the half vector reach theta_d = {:.0f}°; Fresnel forms "
+                      "only differ beyond 60°",
                       to)};
 }
 
@@ -162,13 +162,12 @@ Prospect kd(const Health& h, const Survey& s) {
     return say(weakly, fmt::format("the base, {:.3g} 1/sr, is below the noise floor of {:.3g} 1/sr",
                                    base, h.noise_floor));
   const double tail = std::min(1.0, (h.peak->height - base) * s.tail / base);
-  return say(
-      tail <= 0.2      ? yes
-      : tail < 2.0 / 3 ? weakly
-                       : no,
-      fmt::format("of the base, {:.3g} 1/sr, about {:.3g} % would be the tail of a GGX lobe like "
-                  "the highlight at theta_h = {:.0f}°",
-                  base, 100 * tail, h.peak->base_deg));
+  return say(tail <= 0.2      ? yes
+             : tail < 2.0 / 3 ? weakly
+                              : no,
+             fmt::format("a GGX tail of the highlight would explain {1:.3g} % of the base of "
+                         "{0:.3g} 1/sr at theta_h = {2:.0f}°",
+                         base, 100 * tail, h.peak->base_deg));
 }
 
 Prospect precision(const Health& h, const Survey& s) {
@@ -180,7 +179,7 @@ Prospect precision(const Health& h, const Survey& s) {
     why += fmt::format(", each with {} {:.2g} % noise", h.noise.bound ? "at most" : "about",
                        100 * std::max(*h.noise.sigma, 1e-4));
   } else {
-    why += "; how noisy they are cannot be told from the table";
+    why += "; the table does not show how noisy they are";
   }
   if (h.noise_floor > 0) {
     why += fmt::format("; {:.0f} % of them below three times the noise floor of {:.2g} 1/sr",
@@ -193,8 +192,8 @@ Prospect precision(const Health& h, const Survey& s) {
 Prospect intervals(const Table& t) {
   if (const Grid* g = t.grid(); g && g->kind == Grid::Kind::half_difference)
     return {"intervals", yes,
-            "bins of half and difference angle hold all incident angles; a fit tells them apart by "
-            "whole degrees"};
+            "bins of half and difference angle hold all incident angles; a fit takes each whole "
+            "degree as one"};
   // Told apart as the fit does for its intervals.
   const std::size_t n =
       t.list() ? incident_angles(*t.list()).count : t.grid()->axes[0].size - copied_rows(t, 0);
@@ -202,8 +201,8 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format("{}; errors that the values of one angle share can be told from 8 "
-                      "angles on, and from two per unknown",
+          fmt::format("{}; estimating the errors that values of one angle share takes at least 8, "
+                      "and two per unknown",
                       counted(n, "incident angle"))};
 }
 

@@ -183,7 +183,7 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   f.split_sum->head_on = 1.26, f.split_sum->grazing = 14, f.split_sum->ns = 21;
   const auto lit = decisions(f);
   EXPECT_EQ(about(lit, "Image-based light").cost, "21 ns a pixel");
-  EXPECT_EQ(about(lit, "Image-based light").error, "mean ΔE ≤ 1.3 (the table alone: RMS 0.0008)");
+  EXPECT_EQ(about(lit, "Image-based light").error, "mean ΔE ≤ 1.3 (only the table: RMS 0.0008)");
   EXPECT_EQ(about(lit, "Image-based light").unless,
             "rims are looked at: integrate there, where the mean ΔE is ≤ 14");
 }

@@ -226,7 +226,7 @@ TEST(ScenesAsset, IsPlannedWithoutWhatHasTextures) {
   EXPECT_EQ(r.left_out[0].why.find(path), std::string::npos) << "it is known which file";
   const auto said = findings(r).sentences;
   EXPECT_NE(std::ranges::find(said,
-                              "Of the asset, one material with textures, or otherwise no single "
+                              "In the asset, one material with textures, or otherwise no single "
                               "surface, is left out; the page names it at its end."),
             said.end());
 }

@@ -114,7 +114,7 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
   EXPECT_EQ(
       f.sentences[0],
       "GGX in half precision keeps 2\u00a0% from alpha 0.004 on, if the shader computes |n × h|². "
-      "A clamp there changes surfaces of a roughness below 0.063 alone. Where it rounds NoH to "
+      "A clamp there changes only surfaces of a roughness below 0.063. Where it rounds NoH to "
       "half instead, it does so from alpha 0.22 on.");
   EXPECT_TRUE(says(f,
                    "Beckmann in half does not keep 2\u00a0%: even from alpha 0.05 on there are "
@@ -198,11 +198,11 @@ TEST(StabilityFindings, SayWhatIsProvedOnAnyGpu) {
   EXPECT_TRUE(
       says(f,
            "On any GPU 1\u00a0% in float is proved for 1 of 2 forms. GGX from |n × h|² errs by "
-           "0.00059\u00a0% at most; from NoH alone 26\u00a0% is all that is proved."));
+           "0.00059\u00a0% at most; only from NoH, 26\u00a0% is all that is proved."));
   EXPECT_TRUE(
       says(f,
            "On any GPU 1\u00a0% in half is proved for none of 2 forms. GGX from |n × h|² errs by "
-           "4.9\u00a0% at most; from NoH alone nothing is proved."));
+           "4.9\u00a0% at most; only from NoH, nothing is proved."));
   r.any_gpu[0].why = "Gappa is not installed";
   f = findings(r);
   ASSERT_EQ(f.sentences.size(), 1U);

@@ -66,7 +66,7 @@ TEST(GltfMaterial, ReadsEachFactor) {
 
 TEST(GltfMaterial, RefusesTexturesByTheirPlace) {
   const Json texture{{"index", 0}};
-  const std::string is = ": found a texture of 'm', expected a material of factors alone";
+  const std::string is = ": found a texture of 'm', expected a material of factors only";
   for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"})
     EXPECT_EQ(complaint_of_material(Json{{key, texture}}),
               "a.gltf: /materials/0/" + std::string(key) + is);
@@ -91,7 +91,7 @@ TEST(GltfMaterial, LeavesOutWhatIsOffWithItsTextures) {
 
 TEST(GltfMaterial, RefusesExtensionsByNameWhereTheyChangeTheLook) {
   const std::string expected =
-      " of 'm', expected KHR_materials_ior, _specular, _clearcoat or _anisotropy alone";
+      " of 'm', expected only KHR_materials_ior, _specular, _clearcoat or _anisotropy";
   for (const auto& [name, factor, value] :
        {std::tuple("KHR_materials_iridescence", "iridescenceFactor", Json(0.5)),
         {"KHR_materials_sheen", "sheenColorFactor", Json{0, 0, 0.1}},

@@ -320,7 +320,7 @@ TEST(SceneErrors, RefuseAnEmptySceneAndOneInTheDark) {
   Json dark = with(example(), "/lights/0/irradiance", {0, 0, 0});
   dark["lights"].erase(1);
   dark["lights"].erase(1);
-  EXPECT_EQ(complaint(dark), "s.json: /lights: found black lights alone, expected one that shines");
+  EXPECT_EQ(complaint(dark), "s.json: /lights: found only black lights, expected one that shines");
   for (const char* key : {"schema", "materials", "objects", "lights", "view"})
     EXPECT_EQ(complaint(without(example(), std::string("/") + key)),
               "s.json: /" + std::string(key) + ": found nothing, expected a value");
@@ -354,7 +354,7 @@ TEST(SceneErrors, NameFilesThatAreNotThereOrNotWhatTheyShouldBe) {
             "s.json: /lights/1: found a second environment, expected one at most");
   write_environment(folder / "e.exr", 0);
   EXPECT_EQ(of("/lights", Json::array({light})),
-            "s.json: /lights: found black lights alone, expected one that shines");
+            "s.json: /lights: found only black lights, expected one that shines");
 }
 
 TEST(SceneErrors, RefuseWhatIsNoJsonOrNestsTooDeep) {

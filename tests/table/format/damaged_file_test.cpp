@@ -272,7 +272,7 @@ TEST(KlemsFile, NamesTheNodeThatIsMissingOrWrong) {
                    "no AngleBasis named 'LBNL/Klems Half'");
   EXPECT_COMPLAINT(with("Columns", "TensorTree5"), "IncidentDataStructure: found TensorTree5");
   EXPECT_COMPLAINT(with("Reflection Front", "Transmission Front"),
-                   "Layer: found directions of transmission alone");
+                   "Layer: found only directions of transmission");
   EXPECT_COMPLAINT(with("<LowerTheta>30", "<LowerTheta>31"), "ThetaBounds: found 31 to 90");
   EXPECT_COMPLAINT(with("<UpperTheta>90", "<UpperTheta>91"), "UpperTheta: found '91'");
   EXPECT_COMPLAINT(with("<UpperTheta>30", "<UpperTheta>-1"), "UpperTheta: found '-1'");
