@@ -48,22 +48,22 @@ ReportFiles made(const ReportOptions& o, const ReportProgress& done) {
 void look_first(EnergyOptions& o) {
   const auto thin = [](std::vector<double>& list) {
     std::vector<double> some;
-    for (std::size_t k = 0; k < list.size(); k += k + 2 < list.size() ? 2 : 1)
-      some.push_back(list[k]);
+    for (std::size_t k = list.size() % 4; k < list.size(); k += 4) some.push_back(list[k]);
+    if (some.back() < list.back()) some.push_back(list.back());
     list = some;
   };
   thin(o.roughness), thin(o.mu);
-  o.samples = 8192, o.views = 4, o.lit_points = 64;
+  o.samples = 4096, o.views = 4, o.lit_points = 64;
 }
 void look_first(CostOptions& o) {
-  o.processes = 1, o.timing = {1, 1e-4, true};
+  o.processes = 1, o.timing = {1, 5e-5, true};
 }
 void look_first(CrossFitOptions& o) {
-  o.roughness = {0.1, 0.3, 0.5, 0.8, 1}, o.ior = {1.5}, o.metals = {"Au", "Al"}, o.gamma = {1.5};
-  o.bins = 20, o.walks = 128, o.published = false;
+  o.roughness = {0.1, 0.3, 0.5, 0.8}, o.ior = {1.5}, o.metals = {"Au"}, o.gamma = {1.5};
+  o.bins = 14, o.walks = 64, o.published = false;
 }
 void look_first(ScenesOptions& o) {
-  o.materials.resize(std::min<std::size_t>(o.materials.size(), 3));
+  o.materials.resize(std::min<std::size_t>(o.materials.size(), 2));
   o.plan.samples = 512, o.plan.fresh = 8192, o.plan.directions = 16, o.verified = 4096;
   o.pixels = 48, o.picture_samples = 16, o.map_samples = 64;
 }
@@ -88,7 +88,9 @@ ReportFiles cross_fit_files(const ReportOptions& o, const ReportProgress& done) 
 
 ReportFiles stability_files(const ReportOptions& o, const ReportProgress& done) {
   using Setting = StabilityOptions::Setting;
-  const auto setting = o.full ? Setting::full : o.one_of_all ? Setting::brief : Setting::quick;
+  const auto setting = o.full                    ? Setting::full
+                       : o.one_of_all || o.quick ? Setting::brief
+                                                 : Setting::quick;
   StabilityOptions options{setting};
   if (o.quick) options.ids = {"ndf.ggx", "masking.smith_ggx.correlated", "fresnel.schlick"};
   return files(stability_report(options, done), o);
