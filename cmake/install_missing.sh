@@ -155,6 +155,13 @@ install_mypy() {
   echo "Without mypy from PyPI, for Python 3.11 on x86-64: the types of the package for Python are not checked."
 }
 
+# nbclient, which executes the notebooks, in build/notebooks; without it that test is skipped.
+install_notebooks() {
+  local at=build/notebooks
+  if [ -e "$at/whole" ] || { from_pypi $at tests/python/notebooks.txt python3.11 && touch "$at/whole"; }; then return 0; fi
+  echo "Without nbclient and ipykernel from PyPI, for Python 3.11 on x86-64: the notebooks are not executed."
+}
+
 # Blender as a module of Python 3.11, which exported glTF is looked at with, in build/blender: a gigabyte, so for ./check --long alone.
 install_blender() {
   local at=build/blender

@@ -66,7 +66,7 @@ out=build/wheel_made/$tag
 rm -rf $out && mkdir -p $out
 echo "-- building"
 CXX=${CXX:-c++} CMAKE_ARGS="-DCMAKE_PREFIX_PATH=$PWD/build/ceres/installed" \
-  pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps --config-settings=build-dir=build/wheel/$tag -w $out/linux .
+  pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps -w $out/linux .
 auditwheel repair -w $out/repaired $out/linux/*.whl >$out/auditwheel.txt 2>&1 || { cat $out/auditwheel.txt >&2; exit 1; }
 wheel unpack -d $out/unpacked $out/repaired/*.whl >/dev/null
 gather_licences "$(echo $out/unpacked/gonio-*/gonio-*.dist-info)/licenses/bundled"

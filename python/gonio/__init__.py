@@ -30,6 +30,7 @@ from ._document import Document, Path
 from ._fit import Fit, Parameter, Parameters
 from ._gonio import BadInput, Error, WrongUsage, __version__
 from ._own import OwnModel
+from ._own import provided as _provided
 from ._own import shader_of as _shader_of
 
 __all__ = [
@@ -219,6 +220,7 @@ def model(source: str | Callable[..., Any], function: str = "", *, language: str
             raise WrongUsage(f"language: found {language}, expected one of {', '.join(_languages)}")
     file = f"own_{_hashlib.sha256(text.encode()).hexdigest()[:12]}.{language}"
     _gonio.provide(file, text)
+    _provided[file] = text
     words = [f"argument.{x}={y}" for x, y in _by_name("arguments", arguments, '{"x": "noh"}').items()]
     words += [f"includes={includes}"] if includes else []
     words += [f"{n}={','.join(repr(float(x)) for x in _np.atleast_1d(b))}" for n, b in bounds.items()]

@@ -12,14 +12,22 @@ from typing import Any, Literal
 
 from ._document import Document, Path
 from ._gonio import BadInput, Error, WrongUsage
-from ._own import OwnModel
+from ._own import OwnModel, provided
 from ._program import PROGRAM
 
 Target = Literal["gltf", "mitsuba", "standard_surface", "open_pbr", "usd_preview"]
 
 
+class _WithShaders(str):
+    """Path of a document whose shaders lie beside it: the program looks for them in the folder that it runs in."""
+
+
 def _run(command: str, words: list[Path], options: dict[str, Any]) -> str:
     """Standard output of the program, which an interrupt ends, too."""
+    at = next((_os.path.dirname(word) for word in words if isinstance(word, _WithShaders)), None)
+    if at:
+        words = [_os.path.abspath(word) if _os.path.exists(word) else word for word in words]
+        options = {name: _os.path.abspath(value) if name == "output" else value for name, value in options.items()}
     call = [_os.environ.get("GONIO_PROGRAM") or _os.fspath(PROGRAM), command, *(_os.fspath(word) for word in words)]
     for name, value in options.items():
         option = "--" + name.replace("_", "-")
@@ -29,7 +37,7 @@ def _run(command: str, words: list[Path], options: dict[str, Any]) -> str:
             many = [value] if isinstance(value, (str, _os.PathLike)) or not hasattr(value, "__iter__") else list(value)
             call += [option, *map(str, many)]
     try:
-        done = _subprocess.run(call, stdin=_subprocess.DEVNULL, capture_output=True, text=True, encoding="utf-8", check=False)
+        done = _subprocess.run(call, stdin=_subprocess.DEVNULL, capture_output=True, text=True, encoding="utf-8", check=False, cwd=at)
     except FileNotFoundError:
         raise Error(f"{call[0]}: no program gonio: it comes with the wheel; else name it by GONIO_PROGRAM") from None
     said = done.stderr.strip().removeprefix("gonio: ")
@@ -55,6 +63,11 @@ def _as_file(thing: Any, ending: str) -> Iterator[Path]:
             return
         path = _os.path.join(folder, "it" + ending)
         thing.write(path)
+        for name, text in provided.items() if isinstance(thing, Document) else ():
+            if name in thing.text:
+                with open(_os.path.join(folder, name), "w", encoding="utf-8") as file:
+                    file.write(text)
+                path = _WithShaders(path)
         yield path
 
 

@@ -18,6 +18,10 @@ _calls = {"sqrt": "sqrt", "exp": "exp", "log": "log", "exp2": "exp2", "log2": "l
           "power": "pow", "float_power": "pow", "maximum": "max", "minimum": "min", "fmax": "max", "fmin": "min", "sign": "sign"}
 
 
+provided: dict[str, str] = {}
+"""Texts of models of one's own, by the names of their files, for the program: a fit of one names its file."""
+
+
 class OwnModel(str):
     """A function of your own, as ``model`` made it: a spec, or the name of a term within one.
 

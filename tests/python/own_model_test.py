@@ -2,7 +2,7 @@
 
 import unittest
 
-from support import PAINT, InAFolder, directions, gonio, np, program
+from support import PAINT, PARAMETERS, InAFolder, directions, gonio, np, program
 
 SHADER = """// alpha 0.001 1 0.2
 // f0 0 1 0.04
@@ -33,6 +33,11 @@ def traced():
 
 
 class OwnModel(InAFolder):
+    def test_the_program_reads_a_fit_of_one_with_its_shader(self):
+        table = gonio.synth(PAINT, "random", **PARAMETERS)
+        fit = gonio.fit(table, traced())
+        self.assertAlmostEqual(gonio.compare(table, fit)["residuals"]["log_rms"], fit["residuals"]["log_rms"], places=6)
+
     def test_both_are_the_model_that_they_say(self):
         at = directions(500)
         wanted = gonio.eval(PAINT, *at, **TRUTH)
