@@ -259,7 +259,7 @@ void add_report(CommandLine& line) {
            "A glTF file: its materials without textures are among the scenes, others are named");
   c.flag("--full", o->full, "Finer in roughness and angle, some minutes");
   c.flag("--quick", o->quick,
-         "A first look: fewer materials, angles and samples; all takes about a minute");
+         "A first look: fewer materials, angles and samples; all takes a minute or two");
   c.option(
        "--pictures", o->pictures,
        "Which pictures have files: first, those that the pages show at first; all, those that a "
