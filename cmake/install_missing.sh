@@ -45,13 +45,13 @@ install_browser() {
   echo "Without Chromium: the pages are not looked at in a browser."
 }
 
-# A compiler for WebAssembly, which the explorer's module is built anew with; without it that is left out.
+# A compiler for WebAssembly, which the explorer's modules are built anew with; without it that is left out.
 install_module() {
   if command -v apt-get >/dev/null; then
-    (gonio_tools=(clang++-22:clang-22 wasm-ld-22:lld-22)
+    (gonio_tools=(clang++-22:clang-22 wasm-ld-22:lld-22 llvm-ar-22:llvm-22 zopfli:zopfli)
       gonio_libraries=(libc++-22-dev-wasm32 libclang-rt-22-dev-wasm32 wasi-libc); install_missing) && return 0
   fi
-  echo "Without clang-22 for WebAssembly: the explorer's module is not built anew."
+  echo "Without clang-22 for WebAssembly: the explorer's modules are not built anew."
 }
 
 # valijson, which the tests hold documents against the schemas with; without it these are left out.  Debian's package of

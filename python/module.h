@@ -14,7 +14,7 @@
 #include <tuple>
 #include <vector>
 
-#include "base/record.h"
+#include "base/options.h"
 #include "brdf/model/spec.h"
 #include "table/table.h"
 
@@ -56,17 +56,14 @@ std::vector<Setting> settings_from(const Settings&);
 /// What a struct of options declares: name, annotation, meaning and default of each.
 using Declared = std::vector<std::tuple<std::string, std::string, std::string, std::string>>;
 Declared declared(const RecordType&);
-/// Words of options, by their names.
-using Words = std::map<std::string, std::vector<std::string>>;
-void take(const RecordType&, void* to, const Words& given);
 /// Class of a struct of options, made of a call's words.
 template <class Options>
 void bind_options(nb::module_& m, const char* name) {
   nb::class_<Options>(m, name)
       .def("__init__",
-           [](Options* at, const Words& given) {
+           [](Options* at, const NamedWords& given) {
              Options made;
-             take(record_of<Options>, &made, given);
+             take_words(record_of<Options>, &made, given);
              new (at) Options(std::move(made));
            })
       .def_static("declared", [] { return declared(record_of<Options>); });

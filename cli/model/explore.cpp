@@ -7,7 +7,6 @@
 #include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 #include "reports/explore/page.h"
-#include "table/format/formats.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -19,6 +18,7 @@ struct ExploreCall : Common {
   std::vector<std::string> what, set;
   std::string output;
   std::optional<Bins> bins;
+  bool app = false;
 };
 
 Exit run(const ExploreCall& o) {
@@ -42,7 +42,7 @@ Exit run(const ExploreCall& o) {
     if (!names_table(o.what[i])) continue;
     if (!o.set.empty()) throw wrong_usage("--set goes with a model, not with a table");
     progress("reading " + o.what[i]);
-    tables[i] = explore_table(o.what[i], read_table(o.what[i], o.bins));
+    tables[i] = explore_file(o.what[i], o.bins);
     channels = std::max(channels.value_or(1), tables[i]->channels.size());
   }
   for (std::size_t i = 0; i < o.what.size(); ++i) {
@@ -63,7 +63,7 @@ Exit run(const ExploreCall& o) {
       all.emplace_back(std::move(m));
     }
   }
-  out.write(explore_page_html(all));
+  out.write(explore_page_html(all, o.app));
   out.commit();
   progress.clear();
   if (o.json) {
@@ -95,6 +95,9 @@ void add_explore(CommandLine& line) {
   add_set(c, o->set);
   add_bins(c, o->bins);
   c.option("-o,--output", o->output, "Page to write, .html").required();
+  c.flag("--app", o->app,
+         "The page reads and fits tables that are dropped on it, as one with a table always does: "
+         "gonio in a browser");
   add_jobs(c, *o);
   add_output(c, *o);
 }

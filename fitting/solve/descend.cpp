@@ -6,6 +6,8 @@
 #include <optional>
 #include <utility>
 
+#include "fitting/solve/matrix.h"
+
 #include <Eigen/Cholesky>
 
 namespace gonio {

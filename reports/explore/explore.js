@@ -17,10 +17,12 @@ const colours = 8, sliceSize = 96, sphereSize = 192, mapSize = 18, steps = 1000;
 
 // ---- the module -----------------------------------------------------------------------------------------------------------------
 let g, room;
+const from_text = (text) => Uint8Array.from(atob(text.trim()), (c) => c.charCodeAt(0));
+/// Bytes of a module, which stands in the page in base64 of its gzip.
+const unpacked = (id) => new Response(new Blob([from_text($(id).textContent)]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
 async function start() {
   if (!globalThis.WebAssembly || !globalThis.DecompressionStream) throw new Error("this browser is too old: it has no WebAssembly or no DecompressionStream");
-  const packed = Uint8Array.from(atob($("module").textContent.trim()), (c) => c.charCodeAt(0));
-  const bytes = await new Response(new Blob([packed]).stream().pipeThrough(new DecompressionStream("gzip"))).arrayBuffer();
+  const bytes = await unpacked("module");
   const view = () => new DataView(g.memory.buffer);
   // Of a system there is little: no environment, no files; what would be printed goes nowhere.
   const system = {
@@ -65,14 +67,14 @@ function bind(name, spec, values, intervals = {}, channels = 3) {
 }
 function hold_table(data) {
   const hold = (text, make_of) => {
-    const bytes = Uint8Array.from(atob(text), (c) => c.charCodeAt(0)), at = g.allocate(Math.max(bytes.length, 4));
+    const bytes = from_text(text), at = g.allocate(Math.max(bytes.length, 4));
     new Uint8Array(g.memory.buffer, at, bytes.length).set(bytes);
     const handle = checked(make_of(at, bytes.length));
     g.release(at);
     return handle;
   };
   const channels = data.channels.length;
-  return { ...data, values: null, samples: hold(data.samples, (at, bytes) => g.samples(channels, bytes / 4 / (4 + channels), at)),
+  return { ...data, values: null, file: null, samples: hold(data.samples, (at, bytes) => g.samples(channels, bytes / 4 / (4 + channels), at)),
     handle: hold(data.values, (at) => g.table(channels, ...data.sizes, at)), visible: true, channels };
 }
 const values_of = (item) => {
@@ -147,10 +149,11 @@ function travel(from, to) {
 }
 function show_buttons() {
   $("undo").disabled = !past.length, $("redo").disabled = !future.length;
-  $("remove").disabled = items.length < 2 || !is_model(items[active]);
+  $("remove").disabled = items.length < 2;
   for (const id of ["copy-spec", "copy-json"]) $(id).disabled = !is_model(items[active]);
   $("copy-fit").disabled = !items.some(comparable);
   $("add").disabled = items.length >= colours;
+  show_fitting();
 }
 
 // ---- the side: surfaces, terms, sliders -----------------------------------------------------------------------------------------
@@ -569,7 +572,7 @@ function connect() {
   $("channel").onchange = () => { view.channel = Number($("channel").value); redraw(), finish(); };
   $("add").append(make("option", { value: "" }, "a model …"), ...materials().map(([name]) => make("option", { value: name }, name)));
   $("add").onchange = () => { become($("add").value, true), $("add").value = ""; };
-  $("remove").onclick = () => { g.drop(items[active].handle), items.splice(active, 1), active = Math.min(active, items.length - 1), show_all(), finish(); };
+  $("remove").onclick = () => { if (is_model(items[active])) g.drop(items[active].handle); items.splice(active, 1), active = Math.min(active, items.length - 1), show_all(), finish(); };
   $("undo").onclick = safely(() => travel(past, future));
   $("redo").onclick = safely(() => travel(future, past));
   $("reset").onclick = safely(() => { restore(began), finish(); });
@@ -579,7 +582,7 @@ function connect() {
   const release = safely(() => { if (held !== null) { const back = held; restore(back), held = null, say(""); } });
   $("compare").onpointerdown = hold, $("compare").onpointerup = $("compare").onpointerleave = $("compare").onpointercancel = release;
   addEventListener("blur", release);
-  const typing = (e) => e.target.matches?.("select, textarea, input[type=number]");
+  const typing = (e) => e.target.matches?.("select, textarea, input[type=number], #mask");
   addEventListener("keydown", (e) => {
     if ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() === "z" && !typing(e)) e.preventDefault(), $(e.shiftKey ? "redo" : "undo").click();
     else if (e.key.toLowerCase() === "a" && !e.ctrlKey && !e.metaKey && !e.altKey && !typing(e)) hold();
@@ -617,6 +620,7 @@ function connect() {
   };
   $("cut").querySelector(".chart").onkeydown = (e) => step_by_key(e, (by) => { cursor = cuts.angles[clamp(nearest(cuts.angles, cursor ?? view.theta) + by, 0, cuts.angles.length - 1)]; draw_cut(); });
   albedo.onkeydown = (e) => step_by_key(e, (by) => { albedo_cursor = clamp((albedo_cursor ?? view.theta) + 5 * by, 0, 85); draw_albedo(); });
+  connect_fitting();
   for (const id of ["cut", "polar", "albedo"]) add_save(id, "SVG", () => new Blob([svg_text(id)], { type: "image/svg+xml" }));
   for (const id of ["spheres", "slices"]) add_save(id, "PNG", () => png_of(id));
 }
@@ -626,7 +630,12 @@ function step_by_key(e, step) {
 }
 
 // ---- what is taken away ---------------------------------------------------------------------------------------------------------
-const command = () => `gonio eval ${items[active].about.spec} --set ${settings_of(values_of(items[active]))}`;
+const model_words = () => `${items[active].about.spec} --set ${settings_of(values_of(items[active]))}`;
+/// Evaluates the model where the reading in the cut stands.
+function command() {
+  const at = cuts.angles[nearest(cuts.angles, cursor ?? view.theta)], turned = at < 0 ? 0 : 180;
+  return `printf 'theta_i,phi_i,theta_o,phi_o\\n${view.theta},${view.phi},${Math.abs(at)},${view.phi + turned}\\n' > directions.csv\ngonio eval ${model_words()} --directions directions.csv --json`;
+}
 /// Fits the model that is moved to the first table beside it.
 function fit_command() {
   const word = (name, text = name.startsWith("-") ? `./${name}` : name) => (/^[\w./+,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);

@@ -10,17 +10,12 @@
 #include <vector>
 
 #include "answer/model_argument.h"
-#include "table/cut/cuts.h"
-#include "table/health/health.h"
-#include "table/table.h"
+#include "explore/explored_table.h"
 
 namespace gonio {
 
 /// A page shows so many models and tables at most.
 inline constexpr std::size_t most_explored = 8;
-
-/// Models are compared with so many samples of a table at most.
-inline constexpr std::size_t most_explored_samples = 8192;
 
 struct ExploredModel {
   std::string name;  ///< what the user called it
@@ -31,22 +26,6 @@ struct ExploredModel {
   std::vector<std::string> undetermined = {};
 };
 
-/// A table as a page holds it: resampled, but for the values that are drawn as points.
-struct ExploredTable {
-  std::string name;
-  std::vector<std::string> channels;  ///< three at most; of more the first, middle and last
-  std::size_t channels_in_file = 0;
-  std::size_t values = 0;  ///< valid ones of the file, in these channels
-  Table grid;              ///< over explore::page_grid(); NaN where the table has no value near
-  double loss =
-      1;  ///< typical factor between the file's values and the grid's at the same directions
-  double covered = 0;  ///< share of the file's values at whose directions the grid has one
-  /// Of the file itself, most_explored_samples at most: four angles as gonio eval has them [°], then values by channel.
-  std::vector<std::vector<double>> samples;
-  std::vector<Cut> cuts;             ///< of the file itself
-  std::vector<AlbedoSample> albedo;  ///< likewise
-};
-
 using Explored = std::variant<ExploredModel, ExploredTable>;
 
 /// The model of a fit.json with its intervals, or of a spec without.
@@ -54,10 +33,12 @@ using Explored = std::variant<ExploredModel, ExploredTable>;
 ExploredModel explore_model(const std::string& name,
                             const std::vector<Setting>& set,
                             std::optional<std::size_t> channels = {});
+/// The table of a file, with the file.
 /// \throws Error  bad_input of a table without a valid value
-ExploredTable explore_table(const std::string& name, Table);
+ExploredTable explore_file(const std::string& path, std::optional<Bins> bins = {});
 
 /// The page; without anything given it begins with a default model.
-std::string explore_page_html(const std::vector<Explored>&);
+/// \param reads  whether it reads and fits tables itself, as one with tables always does
+std::string explore_page_html(const std::vector<Explored>&, bool reads = false);
 
 }  // namespace gonio

@@ -36,8 +36,8 @@ std::string scripted_page(std::string_view title,
 </body>
 </html>
 )",
-      runs_module ? " 'wasm-unsafe-eval'" : "", markup_text(title), assets::page_css, looks, body,
-      script);
+      runs_module ? " 'wasm-unsafe-eval'; worker-src blob:" : "", markup_text(title),
+      assets::page_css, looks, body, script);
 }
 
 std::string beside_index(std::string html) {

@@ -1,10 +1,13 @@
 #include "base/options.h"
 
 #include <algorithm>
+#include <ranges>
 
+#include "base/error.h"
 #include "base/numbers.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 
@@ -60,6 +63,30 @@ bool set_from_words(const ValueType& t,
     return n && t.whole(value) == static_cast<std::int64_t>(*n);
   };
   return t.is_signed ? set(number_from<std::int64_t>(word)) : set(number_from<std::uint64_t>(word));
+}
+
+std::string expected_of(const ValueType& t, const Rules& rules) {
+  if (t.kind == ValueKind::optional || t.kind == ValueKind::list) return expected_of(*t.of, rules);
+  if (const auto names = choices_of(t, rules); !names.empty())
+    return fmt::format("one of {}", fmt::join(names, ", "));
+  if (rules.has_numbers)
+    return fmt::format("a number in [{}, {}]", rules.numbers.low, rules.numbers.high);
+  return t.kind == ValueKind::number ? "a number" : "a whole number";
+}
+
+void take_words(const RecordType& record, void* to, const NamedWords& given) {
+  std::size_t taken = 0;
+  for_each_option(record, to, [&](const RecordField& f, void* value) {
+    const auto at = given.find(std::string(f.name));
+    if (at == given.end()) return;
+    ++taken;
+    if (!set_from_words(*f.type, f.rules, value, at->second))
+      throw wrong_usage(fmt::format("{}: found {}, expected {}", f.name,
+                                    fmt::join(at->second, ", "), expected_of(*f.type, f.rules)));
+  });
+  if (taken < given.size())
+    throw wrong_usage(fmt::format("options: found one that is none of these among {}",
+                                  fmt::join(std::views::keys(given), ", ")));
 }
 
 std::string word_of(const ValueType& t, const Rules& rules, const void* value) {

@@ -70,7 +70,7 @@ globalThis.choose = (node, value) => { node.value = value; node.dispatchEvent(ne
 def values_under_the_pointer(page):
     page.ask("choose(document.getElementById('theta'), 38)")
     settle(page)
-    model = page.ask("command()").split()[2:]
+    model = page.ask("model_words()").split()
     rows, read = [], []
     for part in (0.2, 0.45, 0.6, 0.71, 0.9):
         page.mouse("mouseMoved", *middle_of(page, "#cut .chart", part))
@@ -212,9 +212,13 @@ def copies(page):
     settle(page)
     page.ask("$('copy-json').click()")
     (folder / "copied.json").write_text(page.ask("$('copied').value"))
-    words = page.ask("command()").split()[2:]
+    words = page.ask("model_words()").split()
     rows = [[45, 0, t, 180] for t in (0, 30, 45, 80)]
     expect(evaluated([str(folder / "copied.json")], rows) == evaluated(words, rows), "the JSON copied is the command copied")
+    said = subprocess.run(page.ask("command()").replace("gonio eval", f"'{gonio}' eval"), shell=True, cwd=folder, capture_output=True, text=True)
+    reading = dict(page.ask("JSON.parse($('cut').querySelector('.readout').dataset.values)"))
+    expect(said.returncode == 0, f"the command copied runs: {said.stderr}")
+    near(reading[page.ask("items[active].name")], json.loads(said.stdout)["rows"][0]["f"][1], "the command copied, at the reading")
     shown = page.ask("(() => { const c = cuts.curves[cuts.curves.findIndex((c) => c.colour === active)]; return [0, 30, 45, 80].map((t) => c.channels.map((f) => f[nearest(cuts.angles, t)])); })()")
     for f, values in zip(evaluated(words, rows), shown):
         for a, b in zip(values, f):

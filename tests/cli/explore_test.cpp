@@ -41,14 +41,24 @@ TEST(Explore, RefusesWhatNoPageCanShow) {
   EXPECT_EQ(f.entries(), before);
 }
 
-TEST(Explore, PageDoesInABrowserWhatItSays) {
+bool lacks_browser() {
   const auto found = [](const char* names) {
     return std::system((std::string("for c in ") + names +
                         "; do command -v $c >/dev/null && exit 0; done; exit 1")
                            .c_str()) == 0;
   };
-  if (!found("chromium chromium-browser google-chrome") || !found("python3"))
-    GTEST_SKIP() << "needs Chromium and Python 3, which are not here";
+  return !found("chromium chromium-browser google-chrome") || !found("python3");
+}
+/// Plays with the pages of a folder by a script, which says what is not as it should be.
+void play_with(const Folder& f, const std::string& script) {
+  const int status = std::system(("python3 '" + project_folder() + "/tests/cli/" + script + "' " +
+                                  program() + " '" + f / "" + "' >'" + f / "said" + "' 2>&1")
+                                     .c_str());
+  EXPECT_EQ(status, 0) << read_bytes(f / "said");
+}
+
+TEST(Explore, PageDoesInABrowserWhatItSays) {
+  if (lacks_browser()) GTEST_SKIP() << "needs Chromium and Python 3, which are not here";
   const Folder f;
   gonio(f, "synth " + std::string(paint) + " --layout hemisphere --noise 0.02 -o t.csv");
   ASSERT_EQ(gonio(f, "fit t.csv -o fit.json --quiet").code, 0);
@@ -56,10 +66,23 @@ TEST(Explore, PageDoesInABrowserWhatItSays) {
   ASSERT_EQ(gonio(f, "explore -o plain.html").code, 0);
   const std::string name = "'<img src=x onerror=alert(1)>.csv'";
   ASSERT_EQ(gonio(f, "explore ./" + name + " -o hostile.html", "cp t.csv " + name + "; ").code, 0);
-  const int status = std::system(("python3 '" + project_folder() + "/tests/cli/explore_page.py' " +
-                                  program() + " '" + f / "" + "' >'" + f / "said" + "' 2>&1")
-                                     .c_str());
-  EXPECT_EQ(status, 0) << read_bytes(f / "said");
+  play_with(f, "explore_page.py");
+}
+
+TEST(Explore, PageFitsInABrowserAsTheProgramDoes) {
+  if (lacks_browser()) GTEST_SKIP() << "needs Chromium and Python 3, which are not here";
+  const Folder f;
+  const std::string synth = "synth " + std::string(paint) + " --noise 0.02 --layout ";
+  ASSERT_EQ(gonio(f, synth + "hemisphere -o t.csv").code, 0);
+  ASSERT_EQ(gonio(f, synth + "in_plane -o small.csv").code, 0);
+  ASSERT_EQ(gonio(f, synth + "merl -o m.binary").code, 0);
+  std::filesystem::remove(f /
+                          "m.binary.gonio.json");  // as a table from elsewhere: without its truth
+  ASSERT_EQ(gonio(f, "explore t.csv lambert+ggx/smith_ggx.correlated/schlick -o paint.html").code,
+            0);
+  ASSERT_EQ(gonio(f, "explore --app -o app.html").code, 0);
+  EXPECT_LT(read_bytes(f / "app.html").size(), 3'000'000U);
+  play_with(f, "explore_fit_page.py");
 }
 
 }  // namespace

@@ -38,10 +38,15 @@ TEST(ExplorePage, HoldsTheModuleAndFetchesNothing) {
             html.npos);
   EXPECT_LT(html.size(), 800'000U);
   EXPECT_TRUE(explored_data(html)["items"].empty());
+  EXPECT_EQ(html.find("id=\"fit-module\""), html.npos);
+  const std::string app = explore_page_html({}, true);
+  EXPECT_NE(app.find(base64(assets::fit_wasm_gz)), app.npos);
+  EXPECT_LT(app.size(), 2'300'000U);
   for (const char* load :
-       {"fetch(", "XMLHttpRequest", "import(", "WebSocket", "sendBeacon", "new Image(", "innerHTML",
-        "outerHTML", "insertAdjacentHTML", "document.write", "eval("})
-    EXPECT_EQ(assets::explore_js.find(load), assets::explore_js.npos) << load;
+       {"fetch(", "XMLHttpRequest", "import(", "importScripts", "WebSocket", "sendBeacon",
+        "new Image(", "innerHTML", "outerHTML =", "insertAdjacentHTML", "document.write", "eval("})
+    for (const auto script : {assets::explore_js, assets::fitting_js, assets::worker_js})
+      EXPECT_EQ(script.find(load), script.npos) << load;
   EXPECT_EQ(assets::explore_css.find("url("), assets::explore_css.npos);
 }
 

@@ -168,10 +168,11 @@ class AltaReader {
       n_out_ = number_in(next_word(value), 1, most_channels);
     } else if (key == "PARAM_IN") {
       const auto name = next_word(value);
-      in_ = std::ranges::find(kAltaParametrizations, name, &AltaParametrization::name);
-      if (in_ == kAltaParametrizations.end())
+      const auto known = std::ranges::find(kAltaParametrizations, name, &AltaParametrization::name);
+      if (known == kAltaParametrizations.end())
         fail(fmt::format("#PARAM_IN {}", name),
              "a parametrization of two directions: " + known_inputs());
+      in_ = &*known;
     } else if (key == "PARAM_OUT") {
       const auto name = next_word(value);
       out_ = std::ranges::find(kOutputs, name) != kOutputs.end();

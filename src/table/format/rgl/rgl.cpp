@@ -50,7 +50,9 @@ Image image(const TensorFile& file,
             const Tensor& t,
             double least,
             std::uint64_t most = most_values) {
-  Image i{t.shape.back(), t.shape[t.shape.size() - 2], {}};
+  Image i{static_cast<std::size_t>(t.shape.back()),
+          static_cast<std::size_t>(t.shape[t.shape.size() - 2]),
+          {}};
   if (i.width < 2 || i.height < 2)
     file.fail(name, fmt::format("{} × {} nodes", i.height, i.width), "2 × 2 or more");
   i.nodes = file.floats(t, most);

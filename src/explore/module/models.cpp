@@ -4,18 +4,17 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
-#include <cstdlib>
 #include <memory>
 
 #include "base/error.h"
 #include "brdf/model/roughness.h"
 #include "explore/surface.h"
+#include "exports.h"
 
 namespace {
 
 using namespace gonio;
 
-std::string answer;
 std::vector<std::unique_ptr<explore::Surface>> surfaces;
 std::unique_ptr<explore::Sphere> sphere;
 
@@ -47,18 +46,6 @@ int copied(const explore::Channels& f, double* to) {
 }
 
 }  // namespace
-
-#define GONIO_EXPORT(name) extern "C" __attribute__((export_name(#name), used))
-
-GONIO_EXPORT(allocate) void* page_allocate(std::size_t bytes) {
-  return std::aligned_alloc(64, (bytes + 63) / 64 * 64);
-}
-GONIO_EXPORT(release) void page_release(void* p) {
-  std::free(p);
-}
-GONIO_EXPORT(answer) const char* page_answer() {
-  return answer.c_str();
-}
 
 GONIO_EXPORT(catalogue) int page_catalogue() {
   return guarded([&] { return answer = explore::catalogue_json(), 0; });

@@ -2,6 +2,7 @@
 // would read one is refused by name.
 #include "base/error.h"
 #include "brdf/kernel/kernels.h"
+#include "brdf/model/own_files.h"
 #include "foreign/function.h"
 
 namespace gonio::foreign {
@@ -17,6 +18,14 @@ Name parse_name(std::string_view name) {
 }
 
 }  // namespace gonio::foreign
+
+namespace gonio {
+
+std::vector<OwnFile> own_files(const std::vector<std::string>&, const std::string&) {
+  return {};
+}
+
+}  // namespace gonio
 
 namespace gonio::simd128 {
 

@@ -1,0 +1,91 @@
+#include "fitting/ask/page_request.h"
+
+#include "base/error.h"
+#include "base/file.h"
+#include "base/json/describe.h"
+#include "base/options.h"
+#include "explore/explored_table.h"
+#include "fitting/choice/document.h"
+#include "table/format/as_one.h"
+#include "table/format/column_proposal.h"
+#include "table/format/formats.h"
+#include "table/format/metadata.h"
+#include "table/health/health.h"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+namespace gonio {
+namespace {
+
+/// Columns of a text file, what they may be, and why; null of a file that is none.
+Json columns_in(const std::string& path) {
+  InputFile in(path);
+  if (!is_csv(in.peek(1 << 16))) return {};
+  const auto columns = csv_columns(in);
+  Json names = Json::array(), map;
+  for (const auto& c : columns) names.push_back(c.name);
+  const auto p = propose_columns(columns);
+  if (p.map) map = parse_json(path, with_columns(side_path(path), "", *p.map))["columns"];
+  return {{"names", names}, {"map", map}, {"needed", p.needed}, {"said", p.said}};
+}
+
+/// A file that cannot be read as it is still has columns, for a person to say what they are.
+Json read_for_page(const PageRequest& r,
+                   const HowFitted& how,
+                   const std::function<void(const std::string&)>& phase) {
+  phase("reading " + r.file);
+  Json answer = {{"table", {}}, {"inspection", {}}, {"columns", {}}, {"error", ""}};
+  std::optional<Table> t;
+  try {
+    t = read_table(r.file, how.bins);
+  } catch (const Error& e) {
+    answer["error"] = e.what();
+  }
+  if (!t || t->format == "csv") answer["columns"] = columns_in(r.file);
+  if (!t) return answer;
+  if (how.mask) leave_out(*t, *how.mask);
+  phase("inspecting");
+  answer["inspection"] = parse_json(r.file, to_json(*t, inspect(*t)));
+  phase("resampling");
+  answer["table"] = page_json(explore_table(r.file, std::move(*t)));
+  return answer;
+}
+
+std::string compare_for_page(const PageRequest& r,
+                             const HowFitted& how,
+                             const std::function<void(const std::string&)>& phase) {
+  const auto models = models_asked(r.models);
+  phase("reading " + r.file);
+  TableAndDigest in = read_files({r.file}, how.bins);
+  if (how.mask) leave_out(in.table, *how.mask);
+  const ModelChoice choice =
+      compare_models(in.table, how.options, models, [&](const std::string& what, double part) {
+        phase(fmt::format("{} ({:.0f} %)", what, 100 * part));
+      });
+  in.finish();
+  return to_json(
+      choice, advise(choice),
+      {in.table.path, in.table.sha256, in.table.format, std::string(name_of(how.options.metric))});
+}
+
+}  // namespace
+
+std::string answer_page(const std::string& request,
+                        const std::function<void(const std::string&)>& phase) {
+  PageRequest r;
+  read_record(JsonDocument("the request", request).root(), r);
+  HowFitted how;
+  take_words(record_of<HowFitted>, &how, {r.options.begin(), r.options.end()});
+  switch (r.command) {
+    case PageCommand::read:
+      return line_of(read_for_page(r, how, phase));
+    case PageCommand::fit:
+      return to_json(fit_files({r.file}, how, phase).result.document);
+    case PageCommand::models:
+      return compare_for_page(r, how, phase);
+  }
+  return "";
+}
+
+}  // namespace gonio

@@ -1,0 +1,199 @@
+"""Fits tables in pages of gonio explore in a headless browser, and says where they are not as the program fits them.
+
+    explore_fit_page.py GONIO FOLDER
+
+The folder has t.csv and small.csv (tables), m.binary (one as MERL's), paint.html (a page with t.csv) and app.html (gonio explore --app).
+"""
+
+import json
+import pathlib
+import subprocess
+import sys
+
+sys.path.insert(0, str(pathlib.Path(__file__).parent))
+from devtools import Browser
+
+gonio, folder = sys.argv[1], pathlib.Path(sys.argv[2])
+complaints = []
+model = "lambert+ggx/smith_ggx.correlated/schlick"
+idle = "typeof kept === 'string' && job === null && dirty.waiting === 0"
+
+
+def expect(holds, what):
+    if not holds:
+        complaints.append(what)
+
+
+def run(*words):
+    return subprocess.run([gonio, *words], cwd=folder, capture_output=True, text=True)
+
+
+def natively(table, *words):
+    done = run("fit", table, "--json", *words)
+    if done.returncode:
+        complaints.append(f"gonio fit {table}: {done.stderr}")
+    return json.loads(done.stdout)
+
+
+def lists(value):
+    return value if isinstance(value, list) else [value]
+
+
+def same_fit(page, program, what):
+    """Parameters to 1e-6 and to 0.01 of a standard error, and all that is said."""
+    expect(page.keys() == program.keys(), f"{what}: {page.keys() ^ program.keys()} in one of them only")
+    for key in ("model", "channels", "warnings", "next", "metric", "intervals", "clusters", "input"):
+        expect(page[key] == program[key], f"{what}: {key}: {page[key]}, the program says {program[key]}")
+    expect(page["solver"]["instruction_set"] == "simd128", f"{what}: fitted by {page['solver']['instruction_set']}")
+    for name, p in program["parameters"].items():
+        q = page["parameters"][name]
+        expect(q["status"] == p["status"], f"{what}: {name} is {q['status']}, the program says {p['status']}")
+        for a, b, error in zip(lists(q["value"]), lists(p["value"]), lists(p["std_error"])):
+            if b is None:
+                expect(a is None, f"{what}: {name}: {a}, the program has no value")
+            else:
+                expect(abs(a - b) <= 1e-6 * abs(b) and (error is None or abs(a - b) <= 0.01 * error), f"{what}: {name}: {a!r}, the program says {b!r} ± {error}")
+        for a, b in zip(lists(q["std_error"]), lists(p["std_error"])):
+            expect(a is b is None or abs(a - b) <= 1e-3 * b, f"{what}: error of {name}: {a!r}, the program says {b!r}")
+
+
+def drop(page, *names):
+    root = page("DOM.getDocument")["root"]["nodeId"]
+    node = page("DOM.querySelector", nodeId=root, selector="#file")["nodeId"]
+    page("DOM.setFileInputFiles", nodeId=node, files=[str(folder / name) for name in names])
+
+
+def drop_and_wait(page, *names):
+    page.ask("say('waiting')")
+    drop(page, *names)
+    page.wait("$('status').textContent !== 'waiting' && job === null", 120)
+
+
+def press(page, button, seconds=120):
+    page.ask("say('waiting')")
+    page.ask(f"$('{button}').click()")
+    page.wait("$('status').textContent !== 'waiting' && job === null", seconds)
+    return page.ask("$('status').textContent")
+
+
+def document(page):
+    return json.loads(page.ask("page.items[items[active].origin].document"))
+
+
+def fitted(page, what, table, *words):
+    said = press(page, "fit")
+    expect(said == "Fitted.", f"{what}: {said}")
+    if said != "Fitted.":
+        return
+    same_fit(document(page), natively(table, "--model", model, *words), what)
+    expect(page.ask("$('fitted').innerText.includes('typical factor') && document.querySelectorAll('.interval').length === document.querySelectorAll('.slider').length"), f"{what}: the answer is shown, with intervals on the sliders")
+    d = document(page)
+    values = page.ask("values_of(items[active])")
+    expect(values["alpha"] == [d["parameters"]["alpha"]["value"]], f"{what}: the sliders stand at the answer: {values}")
+
+
+def of_the_program(page):
+    page.open((folder / "paint.html").as_uri(), idle)
+    page.ask("[...document.querySelectorAll('.slider input[type=range]')].slice(-4).forEach((r) => { r.value = 700; r.dispatchEvent(new Event('input')); r.dispatchEvent(new Event('change')); })")
+    before = page.ask("state()")
+    fitted(page, "a page with its table", "t.csv")
+    page.ask("$('undo').click()")
+    expect(page.ask("state()") == before, "a fit is undone")
+    # What a person leaves out.
+    page.ask("$('mask').value = 'theta_o > 70'")
+    fitted(page, "without grazing samples", "t.csv", "--mask", "theta_o > 70")
+    page.ask("$('mask').value = 'theta_o >'")
+    said, program = press(page, "fit"), run("fit", "t.csv", "--mask", "theta_o >").stderr.strip()
+    expect(said and program.endswith(said), f"a wrong mask: {said}; the program says {program}")
+
+
+def of_files(page):
+    page.open((folder / "app.html").as_uri(), idle)
+    expect(not page.ask("$('drop').hidden") and page.ask("$('fitting').hidden"), "a page without a table asks for one")
+    drop_and_wait(page, "t.csv", "t.csv.gonio.json")
+    expect(page.ask("items.length === 2 && $('inspection').textContent.includes('usable')"), f"a table is read: {page.ask('$(`status`).textContent')}")
+    fitted(page, "a CSV that was dropped", "t.csv")
+    page.ask("active = items.findIndex((i) => !is_model(i)); $('remove').click()")
+    drop_and_wait(page, "m.binary")
+    fitted(page, "a MERL table that was dropped", "m.binary")
+
+
+def columns(page):
+    page.open("about:blank", "true")
+    page.open((folder / "app.html").as_uri(), idle)
+    (folder / "t.csv.gonio.json").unlink()
+    rows = (folder / "t.csv").read_text().split("\n", 1)
+    (folder / "odd.csv").write_text("thetai,phii,thetar,phir,brdf,green,blue\n" + rows[1])
+    drop_and_wait(page, "odd.csv")
+    said = page.ask("$('status').textContent")
+    program = run("inspect", "odd.csv").stderr.strip()
+    expect(said and program.endswith(said), f"a file with other names: {said}; the program says {program}")
+    expect(page.ask("!$('columns').hidden"), "its columns are shown")
+    guess = page.ask("Object.fromEntries([...document.querySelectorAll('#columns select')].map((s) => [s.dataset.role, s.value]))")
+    expect(guess.get("theta_o") == "thetar" and guess.get("phi_i") == "phii", f"and guessed: {guess}")
+    page.ask("document.querySelector('#columns select[data-role=f]') && (document.querySelector('#columns select[data-role=f]').value = 'green')")
+    page.ask("say('waiting'); document.querySelector('#columns button').click()")
+    page.wait("$('status').textContent !== 'waiting' && job === null", 60)
+    run("columns", "odd.csv", "--map", "theta_i=thetai", "phi_i=phii", "theta_o=thetar", "phi_o=phir", "f=green")
+    fitted(page, "columns that a person named", "odd.csv")
+
+
+def troubles(page):
+    page.open("about:blank", "true")
+    page.open((folder / "app.html").as_uri(), idle)
+    (folder / "cut.binary").write_bytes((folder / "m.binary").read_bytes()[:100_000])
+    (folder / "words.txt").write_text("no table at all\n")
+    for broken in ("cut.binary", "words.txt"):
+        drop_and_wait(page, broken)
+        said, program = page.ask("$('status').textContent"), run("inspect", broken).stderr.strip()
+        expect(said and program.endswith(said), f"{broken}: {said}; the program says {program}")
+    hostile = "<img src=x onerror=alert(1)>.csv"
+    (folder / hostile).write_text((folder / "t.csv").read_text().replace("f_r", "f_<img src=x onerror=alert(2)>", 1))
+    drop_and_wait(page, hostile)
+    expect(page.ask("items.length === 2 && document.querySelectorAll('img').length === 0"), "names of files and channels are no markup")
+    # One that ends, one that dies, and one after them.
+    page.ask("say('waiting'); $('fit').click()")
+    page.wait("job !== null")
+    page.ask("$('cancel').click()")
+    page.wait("job === null")
+    expect(page.ask("$('status').textContent") == "Cancelled.", "a fit is cancelled")
+    page.ask("globalThis.worker_text = $('worker').textContent; $('worker').textContent = 'throw new Error(\"no more memory\")'")
+    said = press(page, "fit")
+    expect("The fit stopped" in said and "no more memory" in said, f"a worker that dies: {said}")
+    page.ask("$('worker').textContent = worker_text.replace('g.ask(at)', '(() => { throw new WebAssembly.RuntimeError(\"unreachable\"); })()')")
+    said = press(page, "fit")
+    expect("The fit stopped: unreachable" in said, f"a module that fails: {said}")
+    page.ask("$('worker').textContent = worker_text")
+    said = press(page, "fit")
+    expect(said == "Fitted.", f"and the next fit runs: {said}")
+
+
+def models_and_saved(page):
+    page.open("about:blank", "true")
+    page.open((folder / "app.html").as_uri(), idle)
+    drop_and_wait(page, "small.csv")
+    said = press(page, "choose", 300)
+    expect(said == "Compared.", f"models compared: {said}")
+    best = page.ask("document.querySelector('#fitted .best td').firstChild.textContent")
+    program = json.loads(run("fit", "small.csv", "--models", "all", "--json").stdout)["recommended"]
+    expect(best == program, f"models compared: {best}, the program takes {program}")
+    page.ask("document.querySelector('#fitted .best button').click()")
+    page.wait("$('status').textContent === 'Fitted.'", 120)
+    page.ask("save = (name, text) => { globalThis.saved = text; }; $('save-page').click()")
+    page.wait("globalThis.saved")
+    (folder / "saved.html").write_text(page.ask("saved"))
+    values = page.ask("[items.length, values_of(items[active]), items[active].about.spec]")
+    page.open("about:blank", "true")
+    page.open((folder / "saved.html").as_uri(), idle)
+    expect(page.ask("[items.length, values_of(items[active]), items[active].about.spec]") == values, "a saved page shows the same")
+    said = press(page, "fit")
+    expect(said == "Fitted.", f"and fits: {said}")
+
+
+with Browser(1400, 900) as page:
+    sys.excepthook = lambda *error: (print("\n".join(complaints)), sys.__excepthook__(*error))
+    for part in (of_the_program, of_files, columns, troubles, models_and_saved):
+        part(page)
+    complaints += page.problems(folder.as_uri())
+print("\n".join(complaints))
+sys.exit(1 if complaints else 0)
