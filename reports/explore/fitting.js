@@ -91,7 +91,7 @@ function show_fit(text, table) {
   const d = JSON.parse(text), line = (kind, said) => make("p", { class: kind }, make("b", {}, kind === "beware" ? "Beware: " : "Try: "), said);
   const head = `${d.model} leaves a typical factor of ${times(d.residuals.log_rms)} on ${table.name}; ${d.solver.termination === "converged" ? "the fit converged" : "the fit did not converge"}.`;
   $("fitted").replaceChildren(make("h2", {}, "Fit"), make("p", {}, head), ...d.warnings.map((w) => line("beware", w)), ...d.next.slice(0, 2).map((n) => line("try", n)),
-    make("div", { class: "controls" }, saver("Save fit.json", `${table.name}.fit.json`, text)));
+    make("div", { class: "controls" }, saver("Save as JSON", `${table.name}.fit.json`, text)));
   $("fitted").hidden = false;
 }
 async function fit_table(model) {
@@ -105,7 +105,8 @@ async function compare_models() {
   const [table] = fit_pair();
   const text = await ask({ do: "models", file: page.items[table.place].name, models: ["all"], options: asked_words() }, await files_of(table)), d = JSON.parse(text);
   const number = (x, digits = 3) => (Number.isFinite(x) ? Number(x.toPrecision(digits)).toString() : "–"), factor = (x) => (Number.isFinite(x) ? times(x) : "–");
-  const rows = d.models.map((m) => {
+  const behind = (m) => m.cv_log_rms ?? m.log_rms ?? Infinity;
+  const rows = d.models.sort((a, b) => behind(a) - behind(b)).map((m) => {
     const take = make("button", {}, "Take");
     take.onclick = carefully(() => fit_table(m.model));
     return make("tr", m.model === d.recommended ? { class: "best" } : {}, make("td", {}, m.model, ...(m.note ? [make("small", {}, m.note)] : [])), make("td", {}, factor(m.cv_log_rms)), make("td", {}, factor(m.log_rms)), make("td", {}, number(m.bic, 4)), make("td", {}, number(m.parameters)), make("td", {}, take));
@@ -113,7 +114,7 @@ async function compare_models() {
   const head = make("tr", {}, ...["model", "typical factor on unseen angles", "of the fit", "BIC", "free", ""].map((t) => make("th", { scope: "col" }, t)));
   $("fitted").replaceChildren(make("h2", {}, "Models compared"), ...(d.recommended ? [make("p", {}, d.none_fits ? "None fits; the nearest is " : "Take ", make("b", {}, d.recommended), `. ${d.reason ?? ""}`)] : []),
     ...[...(d.beware ?? []), ...(d.warnings ?? [])].map((w) => make("p", {}, make("b", {}, "Beware: "), w)), make("div", { class: "scroll" }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))),
-    make("div", { class: "controls" }, saver("Save models.json", `${table.name}.models.json`, text)));
+    make("div", { class: "controls" }, saver("Save as JSON", `${table.name}.models.json`, text)));
   $("fitted").hidden = false, say("Compared.");
 }
 
@@ -172,7 +173,7 @@ function show_columns(source, d) {
     box.hidden = true;
     await read_table({ ...source, side: JSON.stringify({ schema: "gonio.table/1", columns }) });
   });
-  box.replaceChildren(make("h2", {}, `The columns of ${source.name}`), ...(d.table ? [] : [make("p", {}, d.error)]), ...(c.said ?? []).map((s) => make("p", {}, s)),
+  box.replaceChildren(make("h2", {}, `The columns of ${source.name}`), ...(c.said ?? []).map((s) => make("p", {}, s)),
     make("div", { class: "controls" }, ...[...roles_of_columns, ...(values.length ? values : ["f"])].map(pick), tick("in-radians", "angles in radians", map.unit === "radians"), tick("with-cosine", "values are f cos θo", Boolean(map.cosine)), again));
 }
 function show_inspection(d) {
