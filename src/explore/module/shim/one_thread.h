@@ -14,7 +14,9 @@ struct mutex {
 struct thread {
   thread() = default;
   template <class Body>
-  explicit thread(const Body& body) { body(); }
+  explicit thread(const Body& body) {
+    body();
+  }
   bool joinable() const { return false; }
   void join() {}
 };

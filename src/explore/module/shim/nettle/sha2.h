@@ -24,7 +24,9 @@ struct Constants {
       bool prime = true;
       for (std::uint32_t d = 2; d * d <= n; ++d) prime = prime && n % d != 0;
       if (!prime) continue;
-      const auto bits = [](double root) { return static_cast<std::uint32_t>((root - std::floor(root)) * 4294967296.0); };
+      const auto bits = [](double root) {
+        return static_cast<std::uint32_t>((root - std::floor(root)) * 4294967296.0);
+      };
       if (found < 8) state[found] = bits(std::sqrt(static_cast<double>(n)));
       rounds[found++] = bits(std::cbrt(static_cast<double>(n)));
     }
@@ -38,15 +40,19 @@ inline const Constants& constants() {
 inline void add_block(std::uint32_t* state, const std::uint8_t* block) {
   std::uint32_t w[64], s[8];
   for (int i = 0; i < 16; ++i)
-    w[i] = std::uint32_t{block[4 * i]} << 24 | std::uint32_t{block[4 * i + 1]} << 16 | std::uint32_t{block[4 * i + 2]} << 8 | block[4 * i + 3];
+    w[i] = std::uint32_t{block[4 * i]} << 24 | std::uint32_t{block[4 * i + 1]} << 16 |
+           std::uint32_t{block[4 * i + 2]} << 8 | block[4 * i + 3];
   for (int i = 16; i < 64; ++i)
-    w[i] = w[i - 16] + w[i - 7] + (std::rotr(w[i - 15], 7) ^ std::rotr(w[i - 15], 18) ^ w[i - 15] >> 3) +
+    w[i] = w[i - 16] + w[i - 7] +
+           (std::rotr(w[i - 15], 7) ^ std::rotr(w[i - 15], 18) ^ w[i - 15] >> 3) +
            (std::rotr(w[i - 2], 17) ^ std::rotr(w[i - 2], 19) ^ w[i - 2] >> 10);
   std::memcpy(s, state, sizeof s);
   for (int i = 0; i < 64; ++i) {
-    const std::uint32_t a = s[7] + (std::rotr(s[4], 6) ^ std::rotr(s[4], 11) ^ std::rotr(s[4], 25)) + ((s[4] & s[5]) ^ (~s[4] & s[6])) +
-                            constants().rounds[i] + w[i];
-    const std::uint32_t b = (std::rotr(s[0], 2) ^ std::rotr(s[0], 13) ^ std::rotr(s[0], 22)) + ((s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]));
+    const std::uint32_t a = s[7] +
+                            (std::rotr(s[4], 6) ^ std::rotr(s[4], 11) ^ std::rotr(s[4], 25)) +
+                            ((s[4] & s[5]) ^ (~s[4] & s[6])) + constants().rounds[i] + w[i];
+    const std::uint32_t b = (std::rotr(s[0], 2) ^ std::rotr(s[0], 13) ^ std::rotr(s[0], 22)) +
+                            ((s[0] & s[1]) ^ (s[0] & s[2]) ^ (s[1] & s[2]));
     std::memmove(s + 1, s, 7 * sizeof *s);
     s[4] += a, s[0] = a + b;
   }
@@ -76,6 +82,7 @@ inline void sha256_digest(sha256_ctx* c, std::size_t n, std::uint8_t* digest) {
     const auto byte = static_cast<std::uint8_t>(bits >> k);
     sha256_update(c, 1, &byte);
   }
-  for (std::size_t i = 0; i < n; ++i) digest[i] = static_cast<std::uint8_t>(c->state[i / 4] >> (24 - 8 * (i % 4)));
+  for (std::size_t i = 0; i < n; ++i)
+    digest[i] = static_cast<std::uint8_t>(c->state[i / 4] >> (24 - 8 * (i % 4)));
   sha256_init(c);
 }

@@ -32,7 +32,7 @@ class blocked_range {
 };
 
 template <class I, class Body, class... Rest>
-  requires std::invocable<const Body&, I>
+requires std::invocable<const Body&, I>
 void parallel_for(I first, I last, const Body& body, Rest&&...) {
   for (I i = first; i < last; ++i) body(i);
 }
@@ -40,10 +40,12 @@ void parallel_for(I first, I last, const Body& body, Rest&&...) {
 template <class T, class Body, class... Rest>
 void parallel_for(const blocked_range<T>& all, const Body& body, Rest&&...) {
   const T step = static_cast<T>(std::max<std::size_t>(all.grainsize(), 1024));
-  for (T at = all.begin(); at < all.end(); at += step) body(blocked_range<T>(at, std::min(all.end(), at + step), all.grainsize()));
+  for (T at = all.begin(); at < all.end(); at += step)
+    body(blocked_range<T>(at, std::min(all.end(), at + step), all.grainsize()));
 }
 template <class Range, class Value, class Body, class Join, class... Rest>
-Value parallel_reduce(const Range& all, const Value& identity, const Body& body, const Join&, Rest&&...) {
+Value parallel_reduce(
+    const Range& all, const Value& identity, const Body& body, const Join&, Rest&&...) {
   return body(all, identity);
 }
 template <class Range, class... Less>
@@ -55,12 +57,12 @@ void parallel_sort(Range& all, const Less&... less) {
 template <class T>
 class enumerable_thread_specific {
  public:
-  enumerable_thread_specific()
-    requires std::default_initializable<T>
+  enumerable_thread_specific() requires std::default_initializable<T>
       : make_([](std::optional<T>& one) { one.emplace(); }) {}
   template <class Make>
-    requires std::invocable<Make&>
-  explicit enumerable_thread_specific(Make make) : make_([make](std::optional<T>& one) mutable { one.emplace(Made<Make>{make}); }) {}
+  requires std::invocable<Make&>
+  explicit enumerable_thread_specific(Make make)
+      : make_([make](std::optional<T>& one) mutable { one.emplace(Made<Make>{make}); }) {}
   T& local() {
     if (!one_) make_(one_);
     return *one_;
@@ -82,12 +84,16 @@ class enumerable_thread_specific {
 class task_group {
  public:
   template <class Body>
-  void run(const Body& body) { body(); }
+  void run(const Body& body) {
+    body();
+  }
   void wait() {}
 };
 
 namespace this_task_arena {
-inline int max_concurrency() { return 1; }
+inline int max_concurrency() {
+  return 1;
+}
 }
 
 }  // namespace tbb
