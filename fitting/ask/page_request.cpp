@@ -18,8 +18,8 @@
 namespace gonio {
 namespace {
 
-/// Columns of a text file, what they may be, and why; null of a file that is none.
-Json columns_in(const std::string& path) {
+/// Columns of a text file, what they may be, and why; null of a file that has none.
+Json columns_in(const std::string& path) try {
   InputFile in(path);
   if (!is_csv(in.peek(1 << 16))) return {};
   const auto columns = csv_columns(in);
@@ -28,6 +28,8 @@ Json columns_in(const std::string& path) {
   const auto p = propose_columns(columns);
   if (p.map) map = parse_json(path, with_columns(side_path(path), "", *p.map))["columns"];
   return {{"names", names}, {"map", map}, {"needed", p.needed}, {"said", p.said}};
+} catch (const Error&) {
+  return {};
 }
 
 /// A file that cannot be read as it is still has columns, for a person to say what they are.

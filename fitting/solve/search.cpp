@@ -76,8 +76,10 @@ bool float_suffices(const Problem& p, const Fitted& f, double samples_used) {
 /// Fit of a thinned table whose outliers count less and less.
 template <class F>
 Fitted robustly(const Problem& p, const FitData<F>& thin, Fitted f) {
-  for (int round = 0; round < 2; ++round)
-    f = minimise(p, thin, std::move(f.model), huber_threshold(p, thin, f));
+  for (int round = 0; round < 2; ++round) {
+    const double huber = huber_threshold(p, thin, f);  // before the model is moved from
+    f = minimise(p, thin, std::move(f.model), huber);
+  }
   return f;
 }
 

@@ -582,7 +582,7 @@ function connect() {
   const release = safely(() => { if (held !== null) { const back = held; restore(back), held = null, say(""); } });
   $("compare").onpointerdown = hold, $("compare").onpointerup = $("compare").onpointerleave = $("compare").onpointercancel = release;
   addEventListener("blur", release);
-  const typing = (e) => e.target.matches?.("select, textarea, input[type=number], #mask");
+  const typing = (e) => e.target.matches?.("select, textarea, input[type=number], #fitting input");
   addEventListener("keydown", (e) => {
     if ((e.ctrlKey || e.metaKey) && e.key.toLowerCase() === "z" && !typing(e)) e.preventDefault(), $(e.shiftKey ? "redo" : "undo").click();
     else if (e.key.toLowerCase() === "a" && !e.ctrlKey && !e.metaKey && !e.altKey && !typing(e)) hold();

@@ -51,7 +51,18 @@ async function files_of(table) {
   const bytes = await data.bytes.arrayBuffer().catch(() => { throw new Error(`${data.name} was moved or changed: drop it again.`); });
   return { [data.name]: new Uint8Array(bytes), ...(data.side ? { [`${data.name}.gonio.json`]: new TextEncoder().encode(data.side) } : {}) };
 }
-const asked_words = () => ({ ...($("mask").value.trim() ? { mask: [$("mask").value.trim()] } : {}) });
+/// Options as gonio fit takes them, by their names: "--fix gamma=2 f0=0.04", words with blanks in quotes.
+function asked_words() {
+  const words = {}, mask = $("mask").value.trim();
+  let name = null;
+  for (const [, quoted, plain] of $("words").value.matchAll(/'([^']*)'|(\S+)/g)) {
+    if (plain?.startsWith("--")) words[name = plain.slice(2).replaceAll("-", "_")] = [];
+    else if (name === null) throw new Error(`options: found ${plain ?? quoted}, expected --NAME first`);
+    else words[name].push(plain ?? quoted);
+  }
+  if (mask) words.mask = [mask];
+  return words;
+}
 
 /// Values, intervals and all that a fit says, as an entry of the page.
 function fitted(text, name, table) {
@@ -88,15 +99,25 @@ function save(name, text, type = "application/json") {
 }
 const saver = (label, name, text) => Object.assign(make("button", {}, label), { onclick: () => save(name, text) });
 function show_fit(text, table) {
-  const d = JSON.parse(text), line = (kind, said) => make("p", { class: kind }, make("b", {}, kind === "beware" ? "Beware: " : "Try: "), said);
+  const d = JSON.parse(text), line = (kind, said) => make("p", {}, make("b", {}, `${kind}: `), said);
+  // Advice that is an option is taken at a press.
+  const advice = (said) => {
+    const [, option, value] = /^--(model|metric|bounds|mask|bins) ('[^']*'|[^\s:]+)/.exec(said) ?? [], p = line("Try", said);
+    if (option) p.append(" ", Object.assign(make("button", {}, "Do it"), { onclick: carefully(() => {
+      if (option === "model") return fit_table(value);
+      $("words").value = `${$("words").value} --${option} ${value}`.trim();
+      return fit_table();
+    }) }));
+    return p;
+  };
   const head = `${d.model} leaves a typical factor of ${times(d.residuals.log_rms)} on ${table.name}; ${d.solver.termination === "converged" ? "the fit converged" : "the fit did not converge"}.`;
-  $("fitted").replaceChildren(make("h2", {}, "Fit"), make("p", {}, head), ...d.warnings.map((w) => line("beware", w)), ...d.next.slice(0, 2).map((n) => line("try", n)),
+  $("fitted").replaceChildren(make("h2", {}, "Fit"), make("p", {}, head), ...d.warnings.map((w) => line("Beware", w)), ...d.next.slice(0, 2).map(advice),
     make("div", { class: "controls" }, saver("Save as JSON", `${table.name}.fit.json`, text)));
   $("fitted").hidden = false;
 }
 async function fit_table(model) {
   const [table, item] = fit_pair(), spec = model ?? item.about.spec;
-  const text = await ask({ do: "fit", file: page.items[table.place].name, options: { model: [spec], ...asked_words() } }, await files_of(table));
+  const text = await ask({ do: "fit", file: page.items[table.place].name, options: { ...asked_words(), model: [spec] } }, await files_of(table));
   const other = JSON.parse(text).input?.sha256, own = page.items[table.place].sha256;
   take_fit(fitted(text, spec === item.about.spec ? item.name : spec, page.items[table.place]), item), show_fit(text, table);
   say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.` : "Fitted.");

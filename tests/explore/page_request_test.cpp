@@ -68,6 +68,11 @@ TEST(PageRequest, ReadsATableAndGuessesColumns) {
   const auto read = json::parse(asked({{"do", "read"}, {"file", file}}));
   EXPECT_EQ(read["error"], "");
   EXPECT_EQ(read["table"]["values"], usual["table"]["values"]);
+  // What is no table at all keeps the line that says so.
+  const auto none =
+      json::parse(asked({{"do", "read"}, {"file", f.write("t.xml", "<a>\n1 2 3\n4 5\n")}}));
+  EXPECT_HAS(none["error"].get<std::string>(), "t.xml");
+  EXPECT_EQ(none["columns"], json());
   // Samples that a person leaves out.
   const auto some = json::parse(
       asked({{"do", "read"}, {"file", file}, {"options", {{"mask", {"theta_o > 50"}}}}}));
