@@ -125,6 +125,17 @@ def of_files(page):
     fitted(page, "a MERL table that was dropped", "m.binary")
 
 
+def of_a_large_file(page):
+    """The program puts no file of more than 16 MiB into a page: a person gives it."""
+    run("explore", "m.binary", model, "-o", "large.html")
+    page.open((folder / "large.html").as_uri(), idle)
+    said = press(page, "fit")
+    expect("drop it here" in said, f"a page without its file: {said}")
+    drop_and_wait(page, "m.binary")
+    expect(page.ask("items.length") == 2, "a file that the page knows is not shown twice")
+    fitted(page, "a page that was given its file", "m.binary")
+
+
 def columns(page):
     page.open("about:blank", "true")
     page.open((folder / "app.html").as_uri(), idle)
@@ -199,7 +210,7 @@ def models_and_saved(page):
 
 with Browser(1400, 900) as page:
     sys.excepthook = lambda *error: (print("\n".join(complaints)), sys.__excepthook__(*error))
-    for part in (of_the_program, of_files, columns, troubles, models_and_saved):
+    for part in (of_the_program, of_files, of_a_large_file, columns, troubles, models_and_saved):
         part(page)
     complaints += page.problems(folder.as_uri())
 print("\n".join(complaints))
