@@ -46,7 +46,7 @@ Json read_for_page(const PageRequest& r,
   }
   if (!t || t->format == "csv") answer["columns"] = columns_in(r.file);
   if (!t) return answer;
-  if (how.mask) leave_out(*t, *how.mask);
+  take(*t, how.measured);
   phase("inspecting");
   answer["inspection"] = parse_json(r.file, to_json(*t, inspect(*t)));
   phase("resampling");
@@ -60,7 +60,7 @@ std::string compare_for_page(const PageRequest& r,
   const auto models = models_asked(r.models);
   phase("reading " + r.file);
   TableAndDigest in = read_files({r.file}, how.bins);
-  if (how.mask) leave_out(in.table, *how.mask);
+  take(in.table, how.measured);
   const ModelChoice choice =
       compare_models(in.table, how.options, models, [&](const std::string& what, double part) {
         phase(fmt::format("{} ({:.0f} %)", what, 100 * part));

@@ -13,6 +13,7 @@
 #include "base/error.h"
 #include "base/json/reader.h"
 #include "base/numbers.h"
+#include "table/format/delimited.h"
 #include "table/format/measured_by.h"
 
 #include <fmt/format.h>
