@@ -43,8 +43,8 @@ struct SynthOptions {
   double floor = 0;
   double outliers = 0;  ///< share of samples multiplied by 10^u, u uniform in [−2, 2]
   std::uint64_t seed = 1;
-  std::optional<std::string> aperture;  ///< of direction lists
-  bool uncertainty = false;             ///< whether the table states noise × value as uncertainty
+  std::optional<std::string> aperture = {};  ///< of direction lists
+  bool uncertainty = false;  ///< whether the table states noise × value as uncertainty
 };
 template <>
 inline constexpr auto description<SynthOptions> = std::tuple{

@@ -88,7 +88,7 @@ Table spectral_table(const std::string& model, std::size_t channels) {
     f0.values.push_back(0.06 + 0.02 * std::cos(6 * at));
   }
   return synthesize(bind_model(model, {{"alpha", {0.2}}, kd, f0}, channels),
-                    {.layout = Layout::random, .samples = 400, .noise = 0.02, .aperture = {}});
+                    {.layout = Layout::random, .samples = 400, .noise = 0.02});
 }
 
 }  // namespace

@@ -46,9 +46,9 @@ void take_rgb(Table&);
 
 /// What the user says of a table beside its file: of all commands that read one.
 struct AsMeasured {
-  std::optional<std::string> mask, aperture;
-  std::optional<double> reference;
-  std::vector<std::string> channels;
+  std::optional<std::string> mask = {}, aperture = {};
+  std::optional<double> reference = {};
+  std::vector<std::string> channels = {};
   bool rgb = false;
 };
 template <>
