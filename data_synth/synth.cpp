@@ -163,7 +163,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
         fmt::format("model '{}' is anisotropic: layout {} does not say how the surface was turned; "
                     "those of direction lists do: utia, in_plane, hemisphere, random",
                     b.model.spec, name_of(o.layout)));
-  if (o.aperture && t.grid())
+  if (!o.aperture.empty() && t.grid())
     throw wrong_usage(
         fmt::format("aperture: layout {} is a grid of points; those of direction lists take one: "
                     "utia, in_plane, hemisphere, random",
@@ -174,8 +174,8 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
         "random");
   const SampleAngles at(t);
   std::optional<ApertureAngles> seen;
-  if (o.aperture) {
-    t.aperture = aperture_from(*o.aperture);
+  if (!o.aperture.empty()) {
+    t.aperture = aperture_from(o.aperture);
     seen.emplace(
         n, [&](std::size_t i) { return at.directions(i); }, t.aperture, b.model.anisotropic);
   }

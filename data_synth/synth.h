@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <optional>
 #include <string>
 #include <tuple>
 
@@ -43,8 +42,8 @@ struct SynthOptions {
   double floor = 0;
   double outliers = 0;  ///< share of samples multiplied by 10^u, u uniform in [−2, 2]
   std::uint64_t seed = 1;
-  std::optional<std::string> aperture = {};  ///< of direction lists
-  bool uncertainty = false;  ///< whether the table states noise × value as uncertainty
+  std::string aperture = {};  ///< of direction lists; empty: single directions
+  bool uncertainty = false;   ///< whether the table states noise × value as uncertainty
 };
 template <>
 inline constexpr auto description<SynthOptions> = std::tuple{

@@ -80,6 +80,7 @@ double spread(double f, double s, double z, Metric metric) {
     case Metric::l2_cosine:
       return f * std::exp(s * z - s * s / 2);
     case Metric::relative:
+    case Metric::uncertainty:
       break;
   }
   return f * (1 + s * s) / (1 + std::clamp(s * z, -0.9, 0.9));
