@@ -128,7 +128,7 @@ DirectionList random_pairs(std::size_t n, std::uint64_t seed) {
   return l;
 }
 
-Table synthesize(const BoundModel& b, const SynthOptions& o) {
+Table synthesize(const BoundModel& b, const SynthOptions& o, const Aperture& aperture) {
   const std::size_t channels = b.model.channels;
   if ((o.layout == Layout::merl || o.layout == Layout::utia) && channels != 3)
     throw wrong_usage(fmt::format("a {} table has 3 channels, the colours given have {}",
@@ -144,6 +144,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
                     o.samples, counted(channels, "channel"), most_values));
 
   if (o.layout == Layout::rgl) {
+    if (aperture) throw wrong_usage("aperture: layout rgl is a grid of points");
     Table t = rgl_of(b, o);
     t.truth = Truth{b.model.spec, named_values(b), 0, o.floor, 0, o.seed};
     t.notes.emplace_back("layout", name_of(o.layout));
@@ -163,7 +164,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
         fmt::format("model '{}' is anisotropic: layout {} does not say how the surface was turned; "
                     "those of direction lists do: utia, in_plane, hemisphere, random",
                     b.model.spec, name_of(o.layout)));
-  if (!o.aperture.empty() && t.grid())
+  if (aperture && t.grid())
     throw wrong_usage(
         fmt::format("aperture: layout {} is a grid of points; those of direction lists take one: "
                     "utia, in_plane, hemisphere, random",
@@ -174,8 +175,8 @@ Table synthesize(const BoundModel& b, const SynthOptions& o) {
         "random");
   const SampleAngles at(t);
   std::optional<ApertureAngles> seen;
-  if (!o.aperture.empty()) {
-    t.aperture = aperture_from(o.aperture);
+  if (aperture) {
+    t.aperture = aperture;
     seen.emplace(
         n, [&](std::size_t i) { return at.directions(i); }, t.aperture, b.model.anisotropic);
   }

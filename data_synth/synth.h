@@ -5,13 +5,11 @@
 
 #include <array>
 #include <cstdint>
-#include <string>
 #include <tuple>
 
 #include "base/describe.h"
 #include "base/names.h"
 #include "brdf/model/model.h"
-#include "table/format/measured_by.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -42,8 +40,7 @@ struct SynthOptions {
   double floor = 0;
   double outliers = 0;  ///< share of samples multiplied by 10^u, u uniform in [−2, 2]
   std::uint64_t seed = 1;
-  std::string aperture = {};  ///< of direction lists; empty: single directions
-  bool uncertainty = false;   ///< whether the table states noise × value as uncertainty
+  bool uncertainty = false;  ///< whether the table states noise × value as uncertainty
 };
 template <>
 inline constexpr auto description<SynthOptions> = std::tuple{
@@ -57,7 +54,6 @@ inline constexpr auto description<SynthOptions> = std::tuple{
     Field{"outliers", &SynthOptions::outliers, "share of samples thrown off by up to 100 times",
           Numbers{0, 1}},
     Field{"seed", &SynthOptions::seed, "the same table for the same seed, whatever the threads"},
-    Field{"aperture", &SynthOptions::aperture, aperture_in_words},
     Field{"uncertainty", &SynthOptions::uncertainty,
           "states each value's standard uncertainty, NOISE × value, in a CSV table"}};
 
@@ -67,6 +63,7 @@ DirectionList random_pairs(std::size_t n, std::uint64_t seed);
 /// Values below the horizon are 0 in the table (a format's writer marks them its way).  The same for
 /// a seed whatever the threads: every draw is a hash of seed, sample and channel.
 /// An RGL table is what renderers draw from and takes no noise: wrong_usage.
-Table synthesize(const BoundModel&, const SynthOptions&);
+/// \param aperture  what each value is the mean over, of layouts that are direction lists; wrong_usage of others
+Table synthesize(const BoundModel&, const SynthOptions&, const Aperture& aperture = {});
 
 }  // namespace gonio

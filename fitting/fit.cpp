@@ -26,8 +26,6 @@
 #include "fitting/solve/order.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
-#include "optics/refractive_index.h"
-#include "table/format/wavelengths.h"
 #include "table/health/value_warnings.h"
 
 #include <tbb/task_group.h>
@@ -43,23 +41,6 @@ FitSolver solver_of(const Solution& s, std::vector<std::pair<std::string, double
           s.cost_per_iteration,
           std::string(kernels<double>().instruction_set),
           std::move(phase_ms)};
-}
-
-/// A metal that is held is so at the wavelengths of the channels, where these are such; else at those that stand for r, g and b.
-FitOptions at_wavelengths(FitOptions o, const Table& t) {
-  const auto metal = std::ranges::find(o.fixed, "metal", &Setting::name);
-  if (metal == o.fixed.end()) return o;
-  const Material* material = find_metal(metal->text);
-  const auto nm = wavelengths_of(t);
-  if (!material || nm.empty()) return o;
-  Setting eta{"eta", {}}, k{"k", {}};
-  for (const double w : nm) {
-    eta.values.push_back(material->at(w).n);
-    k.values.push_back(material->at(w).k);
-  }
-  o.fixed.erase(metal);
-  o.fixed.insert(o.fixed.end(), {std::move(eta), std::move(k)});
-  return o;
 }
 
 /// Leaves out the changes of values that are not known.

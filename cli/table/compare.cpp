@@ -33,9 +33,10 @@ void print(std::size_t values, const FitResiduals& r) {
 }
 
 Exit run_terms(const CompareCall& o) {
-  if (!o.set.empty() || o.bins || o.measured.mask || o.measured.aperture || o.measured.reference)
+  if (!o.set.empty() || o.bins || o.measured.mask || o.measured.aperture || o.measured.reference ||
+      !o.measured.channels.empty() || o.measured.rgb)
     throw wrong_usage(
-        "--set, --bins, --mask, --aperture and --reference go with a table, not with two terms");
+        "what is said of a table (--set, --bins, --mask …) goes with a table, not with two terms");
   std::vector<std::pair<std::string, Range>> domain;
   for (const auto& s : parse_settings(o.domain)) {
     if (s.values.size() != 2)

@@ -11,6 +11,7 @@
 #include "image/image_file.h"
 #include "table/format/csv.h"
 #include "table/format/formats.h"
+#include "table/format/measured_by.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -25,6 +26,7 @@ struct SynthCall : Common {
   std::string spec, layout, output;
   std::vector<std::string> set;
   SynthOptions synth;
+  std::optional<std::string> aperture;
   // Of the layout map alone:
   StackSynthOptions map;
   std::optional<std::string> directions, size;
@@ -64,7 +66,9 @@ void expect_options_of(const SynthCall& o) {
   };
   if (const auto name = given(o.of_map); !map && !name.empty())
     throw wrong_usage(fmt::format("{} goes with --layout map, not {}", name, o.layout));
-  if (const auto name = given(o.sampled, "--bins", "--floor", "--outliers"); map && !name.empty())
+  if (const auto name =
+          given(o.sampled, "--bins", "--floor", "--outliers", "--aperture", "--uncertainty");
+      map && !name.empty())
     throw wrong_usage(fmt::format("{} goes with a table, not a stack", name));
   if (o.directions && !given(o.of_map, "--images").empty())
     throw wrong_usage("--images draws directions at random; --directions has them");
@@ -118,7 +122,7 @@ Exit run(const SynthCall& o) {
   const auto model = model_argument(read_as(o.spec, o.reading), parse_settings(o.set)).model;
   Progress progress(o.quiet);
   progress("sampling");
-  const Table t = synthesize(model, s);
+  const Table t = synthesize(model, s, o.aperture ? aperture_from(*o.aperture) : Aperture{});
   progress("writing " + o.output);
   write_table(t, o.output);
   progress.clear();
@@ -150,6 +154,7 @@ void add_synth(CommandLine& line) {
       .one_of(layouts)
       .required();
   o->sampled = c.options(o->synth);
+  o->sampled.push_back(c.option("--aperture", o->aperture, aperture_in_words));
   o->of_map = c.options(o->map);
   for (const Option& option :
        {c.option("--size", o->size, "Map: WIDTH,HEIGHT where no image says it (64,64)"),

@@ -171,10 +171,15 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
   find_noise(facts, stride, all.values);
   all.angles = angles.size();
   all.robust = p.options.robust;
+  all.stated = !s.table().errors.empty() && s.metric() != Metric::l2_cosine;
   return all;
 }
 
 bool find_variances(Left& left) {
+  if (left.stated) {
+    for (auto& v : left.values) v.variance = 1;
+    return false;
+  }
   static constexpr double largest =
       1e150;  // whose square is finite: f may be next to nothing, or 0
   const auto sigma = [](const Value& v, std::size_t relative) {

@@ -68,13 +68,14 @@ struct Left {
   double samples = 0;                 ///< that the values count as
   double directions = 0;              ///< that the units count as
   bool robust = false;
+  bool stated = false;  ///< whether residuals are in standard errors that the table states
 };
 
 /// A parameter at a bound can take nothing up: it is no unknown here.
 Left left_over(const Sampling&, const Problem&, const Fitted&, TableFacts&);
 
 /// Noise is taken as the likelier of two: of one size in f, or in proportion to f; normal, or Cauchy's
-/// for a robust fit, before anything is clipped.
+/// for a robust fit, before anything is clipped.  Where the table states it, it is that.
 /// \return  whether in proportion
 bool find_variances(Left&);
 

@@ -59,7 +59,7 @@ void keep_to_what_is_seen(TableFacts& facts,
   if (value >= 0.1 && !(low < 0.1)) return;
   using enum ParameterStatus;
   if (u.status[i] != free && u.status[i] != at_bound && u.status[i] != unbounded) return;
-  if (p.aperture) {  // the samples say how wide it is, though it lies between them
+  if (t.aperture) {  // the samples say how wide it is, though it lies between them
     constexpr double known = 1.0 / 32;  // of both widths: an eighth of how far h turns
     const double least = known * (t.aperture.light + t.aperture.detector);
     if (value < least)

@@ -43,11 +43,13 @@ std::optional<Table> with_few_channels(const Table& t) {
   Table few = t;
   few.channels.clear();
   few.values.clear();
+  few.errors.clear();
   few.between = {};
   for (std::size_t k = 0; k < most_channels; ++k) {
     const std::size_t c = k * (t.channels.size() - 1) / (most_channels - 1);
     few.channels.push_back(t.channels[c]);
     few.values.push_back(t.values[c]);
+    if (!t.errors.empty()) few.errors.push_back(t.errors[c]);
   }
   return few;
 }
@@ -138,6 +140,12 @@ Table as_measured(const DirectionList& where, const BoundModel& model, const Tab
   const auto seen = aperture_angles(t, t.bins(), model.model.anisotropic);
   const auto f = seen ? mean_values(model, *seen, 0, n) : evaluate(model, angles);
   for (std::size_t c = 0; c < f.size(); ++c) std::ranges::copy(f[c], t.values[c].begin());
+  if (!like.errors.empty()) {  // as uncertain as the table's values typically are
+    const double part = typical_uncertainty(like);
+    t.errors = t.values;
+    for (auto& plane : t.errors)
+      for (double& u : plane) u = std::max(part * u, 1e-300);
+  }
   return t;
 }
 
@@ -289,7 +297,7 @@ std::vector<NextDirection> plan_next(const Table& whole,
                                      const std::function<void(const char*)>& phase) {
   const auto few = with_few_channels(whole);
   const Table& t = few ? *few : whole;
-  const FitOptions o = expanded(given);
+  const FitOptions o = at_wavelengths(expanded(given), t);
   const Problem p = pose(t, o);
   if (p.free.size() == 0)
     throw wrong_usage(

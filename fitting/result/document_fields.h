@@ -44,7 +44,8 @@ inline constexpr auto description<FitResiduals> = std::tuple{
     Field{"log_rms", &FitResiduals::log_rms, "RMS of ln f − ln y, where both are positive"},
     Field{"bands", &FitResiduals::bands, "RMS by bands of angles"},
     Field{"chi2_per_freedom", if_there(&FitResiduals::chi2_per_freedom),
-          "Σ ((f − y)/u)² over values less unknowns, where the table states uncertainties u"}};
+          "squares of what is left in standard uncertainties that the table states, over values "
+          "less unknowns"}};
 
 template <>
 inline constexpr auto description<FitSolver> =

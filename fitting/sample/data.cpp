@@ -130,7 +130,8 @@ FitLevels<F> read(const Sampling& s, const Tasks& tasks, const std::vector<std::
       if (all.aperture) {
         F* const number = b.columns + (b.columns_count - 1) * b.n;
         std::fill_n(number, b.n, F(0));
-        for (std::size_t i = 0; i < in.size(); ++i) number[i] = static_cast<F>(in.sample(0)[i]);
+        const auto samples = in.there();
+        for (std::size_t i = 0; i < in.size(); ++i) number[i] = static_cast<F>(samples[i]);
         b.means = in.means();
       }
       for (std::size_t c = 0; c < s.channels(); ++c)

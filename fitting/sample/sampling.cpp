@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <mutex>
 #include <numeric>
 
 #include "base/error.h"
@@ -73,29 +74,49 @@ Groups::Groups(const Table& t, const SampleAngles& at, Bins bins, bool fold)
 
 std::shared_ptr<const ApertureAngles> aperture_angles(const Table& t, Bins bins, bool frame) {
   if (!t.aperture) return nullptr;
-  constexpr std::size_t most = std::size_t{1} << 19;
+  constexpr std::size_t most = std::size_t{1} << 16;
   if (t.size() > most)
     throw bad_input(t.path, "aperture", fmt::format("{} samples", t.size()),
                     fmt::format("at most {} of a table that is averaged over cones", most));
   const SampleAngles at(t, bins);
-  return std::make_shared<const ApertureAngles>(
+  struct Made {
+    Aperture aperture;
+    bool frame = false;
+    std::vector<double> directions;
+    std::shared_ptr<const ApertureAngles> angles;
+  };
+  Made asked{t.aperture, frame, {}, nullptr};
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const DirectionPair p = at.directions(i);
+    asked.directions.insert(asked.directions.end(),
+                            {p.wi.x, p.wi.y, p.wi.z, p.wo.x, p.wo.y, p.wo.z});
+  }
+  static std::mutex mutex;
+  static std::array<Made, 2> kept;
+  {
+    const std::lock_guard lock(mutex);
+    for (const Made& k : kept)
+      if (k.angles && k.aperture == asked.aperture && k.frame == frame &&
+          k.directions == asked.directions)
+        return k.angles;
+  }
+  // Not under the lock: a thread that waits for its parts may take up another fit.
+  asked.angles = std::make_shared<const ApertureAngles>(
       t.size(), [&](std::size_t i) { return at.directions(i); }, t.aperture, frame);
+  const std::lock_guard lock(mutex);
+  std::swap(kept[0], kept[1]);
+  kept[0] = asked;
+  return asked.angles;
 }
 
 // Light and viewer exchanged are other cones: under an aperture nothing is folded.
-Sampling::Sampling(const Table& t,
-                   Bins bins,
-                   Metric metric,
-                   double offset,
-                   bool fold,
-                   bool copies,
-                   bool frame,
-                   std::shared_ptr<const ApertureAngles> aperture)
+Sampling::Sampling(
+    const Table& t, Bins bins, Metric metric, double offset, bool fold, bool copies, bool frame)
     : table_(t),
       way_{bins, metric, has_offset(metric) ? offset : 0, fold && !t.aperture, copies, frame},
       angles_(t, bins),
       groups_(t, angles_, bins, way_.fold),
-      aperture_(aperture ? std::move(aperture) : aperture_angles(t, bins, frame)),
+      aperture_(aperture_angles(t, bins, frame)),
       copied_(copies ? std::vector<bool>{} : copied_pairs(t)) {
   assert(!(frame && t.grid()));
   if (t.weights.empty()) return;
@@ -222,12 +243,21 @@ bool BlockReader<F>::next() {
     for (auto& x : nol_) x[i] = F(0.5);
   }
   if (sampling_.aperture())
-    means_ = std::make_shared<const MeanColumns<F>>(
-        *sampling_.aperture(), std::span(sample_[0].data(), n_), padded(), sampling_.has_frame());
+    means_ = std::make_shared<const MeanColumns<F>>(*sampling_.aperture(), there(), padded(),
+                                                    sampling_.has_frame());
   for (std::size_t m = 0; m < sampling_.groups().widest(); ++m)
     for (std::size_t c = 0; c < sampling_.channels(); ++c) fill(m, c);
   if (bulk_) limit_weights();
   return true;
+}
+
+/// Numbers of the block's samples; of one that is a copy, which weighs nothing, the first of all.
+template <class F>
+std::vector<std::size_t> BlockReader<F>::there() const {
+  std::vector<std::size_t> all(sample_[0].begin(),
+                               sample_[0].begin() + static_cast<std::ptrdiff_t>(n_));
+  std::ranges::replace(all, absent, std::size_t{0});
+  return all;
 }
 
 template <class F>
@@ -421,8 +451,8 @@ void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
   kernels<F>().target[static_cast<std::size_t>(link_of(metric))](
       padded(),
       {stored_.data(), weight_.data(), cosine ? nol_[member].data() : ones_.data(),
-       static_cast<F>(sampling_.offset()), metric == Metric::relative, !cosine, v.y.data(),
-       v.target.data(), v.weight.data()},
+       static_cast<F>(sampling_.offset()), metric == Metric::relative, has_offset(metric),
+       v.y.data(), v.target.data(), v.weight.data()},
       c);
   if (const auto& errors = sampling_.table().errors; !errors.empty()) {
     const bool log = metric == Metric::log || metric == Metric::relative,

@@ -103,15 +103,13 @@ class Sampling {
  public:
   /// \param copies  whether angles that only repeat another are looked at, too
   /// \param frame   whether samples have the angles of the frame, which anisotropic models read: of a list alone
-  /// \param aperture  aperture_angles() of the table, where they are made already
   Sampling(const Table&,
            Bins,
            Metric,
            double offset,
            bool fold,
            bool copies = false,
-           bool frame = false,
-           std::shared_ptr<const ApertureAngles> aperture = nullptr);
+           bool frame = false);
   const Table& table() const { return table_; }
   const SampleAngles& angles() const { return angles_; }
   const Groups& groups() const { return groups_; }
@@ -166,8 +164,8 @@ class Sampling {
   std::vector<bool> copied_;  ///< [row]; empty: none is
 };
 
-/// What the samples of a table with an aperture are means over, made once for all that look at it; null where it has none.
-/// Throws bad_input where they are more than 2¹⁹.
+/// What the samples of a table with an aperture are means over; null where it has none.  Those of the last two tables are kept:
+/// they take a millisecond a sample.  Throws bad_input where samples are more than 2¹⁶.
 std::shared_ptr<const ApertureAngles> aperture_angles(const Table&, Bins, bool frame);
 
 struct SampleCounts {
@@ -224,6 +222,8 @@ class BlockReader {
   const Values& values(std::size_t member, std::size_t channel) const {
     return values_[member * sampling_.channels() + channel];
   }
+  /// Of the first member, 0 where it is absent.
+  std::vector<std::size_t> there() const;
   /// Indices in the table, `absent` where a group has no such member.
   const std::size_t* sample(std::size_t member) const { return sample_[member].data(); }
   /// NoL of those samples.

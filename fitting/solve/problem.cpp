@@ -11,6 +11,8 @@
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
 #include "brdf/model/takes_parameter.h"
+#include "optics/refractive_index.h"
+#include "table/format/wavelengths.h"
 #include "table/health/health.h"
 
 #include <fmt/format.h>
@@ -119,6 +121,22 @@ FitOptions options_for(FitOptions o, const std::string& model) {
   return o;
 }
 
+FitOptions at_wavelengths(FitOptions o, const Table& t) {
+  const auto metal = std::ranges::find(o.fixed, "metal", &Setting::name);
+  if (metal == o.fixed.end()) return o;
+  const Material* material = find_metal(metal->text);
+  const auto nm = wavelengths_of(t);
+  if (!material || nm.empty()) return o;
+  Setting eta{"eta", {}}, k{"k", {}};
+  for (const double w : nm) {
+    eta.values.push_back(material->at(w).n);
+    k.values.push_back(material->at(w).k);
+  }
+  o.fixed.erase(metal);
+  o.fixed.insert(o.fixed.end(), {std::move(eta), std::move(k)});
+  return o;
+}
+
 void check(const FitOptions& given) {
   const FitOptions o = expanded(given);
   resolved_bounds(o, bound(o, {}));
@@ -147,9 +165,7 @@ Problem pose(const Table& t, const FitOptions& o) {
   if (o.metric == Metric::uncertainty && t.errors.empty())
     throw bad_input(t.path, "metric uncertainty", "no uncertainties",
                     "a column u_f, uBRDF, or \"uncertainty\" in the side file");
-  Problem p = pose(t.channels.size(), noise_floor(t), o);
-  p.aperture = aperture_angles(t, t.bins(), m.anisotropic);
-  return p;
+  return pose(t.channels.size(), noise_floor(t), o);
 }
 
 Problem pose(std::size_t channels, double offset, const FitOptions& o) {
@@ -198,14 +214,7 @@ bool folds(const Problem& p) {
 
 Sampling sampling_for(const Problem& p, const Table& t, Bins bins, bool fold) {
   const FitOptions& o = p.options;
-  return {t,
-          bins,
-          o.metric,
-          p.offset,
-          fold,
-          o.copies,
-          p.start.model.anisotropic,
-          bins == t.bins() ? p.aperture : nullptr};
+  return {t, bins, o.metric, p.offset, fold, o.copies, p.start.model.anisotropic};
 }
 
 Problem with_free(const Problem& p, Model model, const std::vector<bool>& mask) {

@@ -20,7 +20,6 @@ struct Problem {
   Bounds bounds;               ///< of the free slots
   std::vector<bool> narrowed;  ///< of the free slots: whether the user gave the bounds
   double offset;
-  std::shared_ptr<const ApertureAngles> aperture = nullptr;  ///< of the table's own bins
   double rounding = 0;  ///< of the cost of one value in float, see SolveOptions; 0: in double alone
 };
 
@@ -30,6 +29,9 @@ FitOptions expanded(FitOptions);
 
 /// Options for another model: what it has no parameter for is left out.
 FitOptions options_for(FitOptions, const std::string& model);
+
+/// A metal that is held is so at the wavelengths of the channels, where these are such; else at those that stand for r, g and b.
+FitOptions at_wavelengths(FitOptions, const Table&);
 
 /// Throws wrong usage for an anisotropic model where the table does not say how its surface was turned.
 void check_azimuths(const Table&, const Model&);

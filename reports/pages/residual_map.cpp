@@ -4,6 +4,7 @@
 #include <cassert>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 #include "brdf/model/evaluate.h"
 #include "integrate/aperture/mean_values.h"
@@ -27,8 +28,8 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
   map.count.assign(bins.x * bins.y, 0);
 
   constexpr std::size_t most_pairs = 2000;
-  // Odd, so that of channels in turn each is met.
-  const std::size_t step = table.size() * table.values.size() / most_pairs | 1U;
+  std::size_t step = (table.size() * table.values.size() + most_pairs - 1) / most_pairs;
+  while (std::gcd(step, table.values.size()) > 1) ++step;  // else some channels are never met
   std::size_t values = 0;
   const SampleAngles at(table);
   const auto copied = copied_pairs(table);

@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "fitting/fit.h"
 #include "fitting/judge/warnings.h"
+#include "fitting/plan/plan_next.h"
 #include "fitting/support.h"
 #include "table/format/measured_by.h"
 
@@ -126,7 +127,8 @@ TEST(Aperture, TwoBeamsOnOneGlossTileGiveOneAlpha) {
 TEST(Aperture, IsSeenByAnisotropicModels) {
   const char* model = "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick";
   const BoundModel truth = test::bind(model, "alpha_x=0.05,alpha_y=0.02,f0=0.5,kd=0.05", 1);
-  const Table t = synthesize(truth, {.layout = Layout::random, .samples = 250, .aperture = "4,3"});
+  const Table t =
+      synthesize(truth, {.layout = Layout::random, .samples = 250}, {4 * degree, 3 * degree});
   const FitOptions o{.model = model, .bin_sensitivity = false};
   const FitDocument d = fit(t, o).document;
   EXPECT_NEAR(parameter(d, "alpha_y").value[0], 0.02, 1e-5);
@@ -204,6 +206,31 @@ TEST(StatedUncertainties, AreWeighedAndJudged) {
     EXPECT_GT(parameter(e, "alpha").std_error[0], 0.4 * parameter(d, "alpha").std_error[0])
         << "intervals do not shrink by what the scatter denies";
   }
+}
+
+TEST(StatedUncertainties, OfTheTruthAreNoMisfitOfTheRightModel) {
+  const Table clean =
+      synthesize(test::bind(gloss, "alpha=0.2,f0=0.05,kd=0.3", 1), {.layout = Layout::hemisphere});
+  Table t = drawn(clean, 0.02, 5);
+  t.truth.reset();
+  // Of the truth's value, not of the value: what is stated is then not in proportion to what was
+  // drawn.
+  for (std::size_t i = 0; i < t.size(); ++i)
+    t.errors[0][i] = (i % 3 == 0 ? 0.06 : 0.02) * clean.values[0][i];
+  for (const Metric metric : {Metric::log, Metric::uncertainty}) {
+    FitOptions o = plain();
+    o.metric = metric;
+    const FitDocument d = fit(t, o).document;
+    EXPECT_FALSE(d.misfit.told) << name_of(metric);
+    EXPECT_LT(parameter(d, "alpha").std_error[0], 0.003) << name_of(metric);
+  }
+}
+
+TEST(Aperture, IsKnownToAPlanOverFewSamples) {
+  const Table t =
+      synthesize(test::bind(gloss, "alpha=0.2,f0=0.05,kd=0.3", 1),
+                 {.layout = Layout::random, .samples = 24, .noise = 0.02}, {degree, degree});
+  EXPECT_EQ(plan_next(t, plain(), 2).size(), 2U);
 }
 
 TEST(StatedUncertainties, AreWhatTheirOwnMetricCounts) {

@@ -510,6 +510,8 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
   settle_values(to, loss);
   if (to_list && loss.method == Loss::Method::copied) to.weights = source.weights;
   loss.weights_dropped = !source.weights.empty() && to.weights.empty();
+  to.aperture = source.aperture;
+  if (!source.errors.empty() && to.errors.empty()) loss.dropped.emplace_back("uncertainties");
   count_bins(to, loss);
   there_and_back(from, to, loss);
   return result;

@@ -67,6 +67,10 @@ double error_of_median(const std::vector<double>& x, double median_of_x) {
   return 1.4826 * median(off) * std::sqrt(std::numbers::pi / 2 / static_cast<double>(x.size()));
 }
 
+std::string in_words(const Aperture& a) {
+  return a ? fmt::format("{:.4g}°, {:.4g}°", a.light / degree, a.detector / degree) : "none";
+}
+
 }  // namespace
 
 Table read_as_one(const std::vector<std::string>& paths, std::optional<Bins> bins) {
@@ -95,7 +99,8 @@ Table read_as_one(const std::vector<std::string>& paths, std::optional<Bins> bin
       throw bad_input(path, "uncertainties", t.errors.empty() ? "none" : "some",
                       fmt::format("as {} has", paths.front()));
     if (t.aperture != all.aperture)
-      throw bad_input(path, "aperture", "another", fmt::format("that of {}", paths.front()));
+      throw bad_input(path, "aperture", in_words(t.aperture),
+                      fmt::format("{}, as {} has", in_words(all.aperture), paths.front()));
     same_truth = same_truth && t.truth && all.truth && t.truth->model == all.truth->model &&
                  t.truth->parameters == all.truth->parameters;
     auto ratios = earlier.compare_and_add(t);

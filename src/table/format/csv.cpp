@@ -261,8 +261,9 @@ class CsvReader {
     std::vector<std::string> wanted;
     const bool values_named = has_values();
     for (const auto& name : lines_.names())
-      if (auto role = role_of(name); is_angle(role) || role == "weight" ||
-                                     (!values_named && (channel_of(role) || uncertainty_of(role))))
+      if (auto role = role_of(name);
+          is_angle(role) || role == "weight" || (!values_named && channel_of(role)) ||
+          (uncertainty_of(role) && (!values_named || role.size() == 3 || has(role.substr(2)))))
         wanted.push_back(std::move(role));
     expect_few_channels(wanted);
     for (const auto& role : wanted)
@@ -287,7 +288,7 @@ class CsvReader {
     std::vector<std::pair<std::string, std::string>> all;
     for (const auto& [role, word] : map_->columns) {
       const auto star = word.find('*');
-      if ((role != "f_*" && role != "u_f_*") || star == word.npos) {
+      if ((role != "f_*" && role != "u_f_*" && role != "U_f_*") || star == word.npos) {
         all.emplace_back(role, word);
         continue;
       }
@@ -453,27 +454,35 @@ class CsvReader {
 
   /// Each channel has its own, or all have one's.
   void give_uncertainties(const std::vector<Values>& stated, Table& t) const {
-    std::size_t at = 0;
+    if (stated.empty()) return;
     std::vector<const Values*> of(t.channels.size());
     std::vector<double> factor(t.channels.size(), 1);
-    for (const auto& c : columns_) {
-      const auto channel = uncertainty_of(c.role);
-      if (!channel) continue;
-      bool found = false;
-      for (std::size_t k = 0; k < of.size(); ++k) {
-        if (!channel->empty() && *channel != t.channels[k]) continue;
-        if (of[k] && !channel->empty()) continue;
-        of[k] = &stated[at];
-        factor[k] = factor_of(c.role);
-        found = true;
+    for (const bool for_all :
+         {false, true}) {  // what is said of one channel beats what is said of all
+      const auto before = of;
+      std::size_t at = 0;
+      for (const auto& c : columns_) {
+        const auto channel = uncertainty_of(c.role);
+        if (!channel) continue;
+        const Values* const own = &stated[at++];
+        if (channel->empty() != for_all) continue;
+        bool found = false;
+        for (std::size_t k = 0; k < of.size(); ++k) {
+          if ((!for_all && *channel != t.channels[k]) || before[k]) continue;
+          if (of[k])
+            throw bad_input(path_, "columns",
+                            fmt::format("two uncertainties of f_{}", t.channels[k]),
+                            "one, standard (u_f) or expanded (U_f)");
+          of[k] = own;
+          factor[k] = factor_of(c.role);
+          found = true;
+        }
+        if (!found && !for_all)
+          throw bad_input(
+              path_, "columns", fmt::format("{} of no values", c.role),
+              fmt::format("the uncertainty of one of f_{}", fmt::join(t.channels, ", f_")));
       }
-      if (!found)
-        throw bad_input(
-            path_, "columns", fmt::format("{} of no values", c.role),
-            fmt::format("the uncertainty of one of f_{}", fmt::join(t.channels, ", f_")));
-      ++at;
     }
-    if (stated.empty()) return;
     for (std::size_t k = 0; k < of.size(); ++k) {
       if (!of[k])
         throw bad_input(path_, "columns", fmt::format("no uncertainty of f_{}", t.channels[k]),

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <map>
 #include <numbers>
 
@@ -99,7 +100,10 @@ void mix(Table& t,
       for (std::size_t k = 0; k < planes.size(); ++k)
         if (const double w = weights[c][k]; w != 0)
           for (std::size_t i = 0; i < t.size(); ++i)
-            all[c][i] += squares ? w * w * planes[k][i] * planes[k][i] : w * planes[k][i];
+            all[c][i] += squares ? w * w * planes[k][i] * planes[k][i]
+                         : planes[k][i] < 0 && !t.negative_is_noise  // no data
+                             ? std::numeric_limits<double>::quiet_NaN()
+                             : w * planes[k][i];
       if (squares)
         for (double& v : all[c]) v = std::sqrt(v);
     }
@@ -125,13 +129,15 @@ std::size_t channel_named(const Table& t, const std::string& name) {
     return static_cast<std::size_t>(at - t.channels.begin());
   if (const auto asked = name.ends_with("nm") ? wavelength_of(name) : std::nullopt) {
     const auto bands = bands_of(t);
-    double widest = 1;
-    for (auto b = bands.begin(); b != bands.end() && std::next(b) != bands.end(); ++b)
-      widest = std::max(widest, std::next(b)->first - b->first);
     const auto nearest = std::ranges::min_element(
         bands, {}, [&](const auto& b) { return std::abs(b.first - *asked); });
-    if (nearest != bands.end() && std::abs(nearest->first - *asked) <= widest)
-      return nearest->second;
+    if (nearest != bands.end()) {  // half of the way to the next band, on that side or the other
+      double gap = nearest == bands.begin() ? 0 : nearest->first - std::prev(nearest)->first;
+      if (std::next(nearest) != bands.end())
+        gap = std::max(gap, std::next(nearest)->first - nearest->first);
+      constexpr double least = 2;  // [nm]
+      if (std::abs(nearest->first - *asked) <= std::max(gap / 2, least)) return nearest->second;
+    }
   }
   throw wrong_usage(fmt::format("no channel '{}' among {}", name, fmt::join(t.channels, ", ")));
 }

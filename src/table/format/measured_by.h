@@ -35,7 +35,7 @@ inline constexpr const char* aperture_in_words =
 inline constexpr const char* reference_in_words =
     "reflectance of the matte target that values are relative to: f is value × R/π";
 
-/// A channel by its name, or by a wavelength as 550nm: then the nearest band, where it is as near as bands stand apart.
+/// A channel by its name, or by a wavelength as 550nm: then the nearest band, if not nearer to where another would stand.
 /// Throws wrong usage, naming those that there are.
 std::size_t channel_named(const Table&, const std::string& name);
 /// Keeps these channels, in that order.

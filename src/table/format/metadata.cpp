@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/json/reader.h"
+#include "base/quantile.h"
 #include "table/format/measured_by.h"
 #include "table/format/side_file.h"
 
@@ -202,6 +203,7 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
       root.at("aperture").fail("two widths: of the light's cone and the detector's");
     t.aperture = {said[0] * degree, said[1] * degree};
     check_aperture(file, t.aperture);
+    if (!t.aperture) root.at("aperture").fail("a width above 0");
   }
   if (root.has("uncertainty")) {
     if (!t.errors.empty()) root.at("uncertainty").fail("none: the table has its own");
@@ -212,9 +214,16 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
       if (key != "relative" && key != "floor") value.fail("no such key; relative or floor");
     if (!(relative > 0 || floor > 0)) j.fail("relative or floor above 0");
     t.errors = t.values;
-    for (auto& plane : t.errors)
+    for (auto& plane : t.errors) {
+      // Where no floor is said, a value next to nothing is not next to certain.
+      constexpr double of_typical = 1e-3;
+      std::vector<double> sizes;
+      for (const double v : plane)
+        if (v > 0 && std::isfinite(v)) sizes.push_back(v);
+      const double typical = sizes.empty() ? 1 : median(sizes);
       for (double& v : plane)
-        v = std::max(std::hypot(relative * v, floor), std::numeric_limits<double>::min());
+        v = std::hypot(relative * v, std::max(floor, of_typical * relative * typical));
+    }
   }
   if (root.has("notes"))
     for (const auto& [name, note] : root.at("notes").members())

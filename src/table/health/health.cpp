@@ -170,7 +170,7 @@ std::string peak_in_words(const Highlight& p) {
                       ? "one sample wide, so limited by the instrument: alpha is at most that"
                       : "not resolved: alpha is at most about that");
     case PeakLimit::aperture:
-      return s + "as narrow as the instrument: the lobe's own width is for a fit to tell";
+      return s + "as narrow as the instrument: only a fit parts the lobe's own width from it";
     case PeakLimit::bins:
       break;
   }
