@@ -67,8 +67,7 @@ std::string method(const Table& from, const Loss& l, double reach_deg) {
                      percent(l.nearest, l.bins), reach_deg);
 }
 
-std::array<double, 3> angles_deg(const Table& t, std::size_t sample) {
-  const auto p = SampleAngles(t).directions(sample);
+std::array<double, 3> angles_deg(const DirectionPair& p) {
   return {theta_of(p.wi) / degree, theta_of(p.wo) / degree,
           std::abs(std::remainder(phi_of(p.wo) - phi_of(p.wi), 2 * std::numbers::pi)) / degree};
 }
@@ -106,7 +105,7 @@ void print(const Table& from, const Conversion& c, const ConvertCall& o) {
   } else if (l.largest == 0 && l.lost == 0) {
     line("and back", "the same values");
   } else {
-    const auto [in, out, phi] = angles_deg(from, l.largest_at);
+    const auto [in, out, phi] = angles_deg(l.largest_at);
     line(
         "and back",
         fmt::format("RMS difference {}, largest {} (theta_i {:.1f}°, theta_o {:.1f}°, phi {:.1f}°)",
@@ -130,7 +129,7 @@ Json to_json(const Table& from, const Conversion& c, const ConvertCall& o) {
   const Loss& l = c.loss;
   Json largest_at;
   if (l.largest > 0) {
-    const auto [in, out, phi] = angles_deg(from, l.largest_at);
+    const auto [in, out, phi] = angles_deg(l.largest_at);
     largest_at = {{"theta_i_deg", in}, {"theta_o_deg", out}, {"phi_deg", phi}};
   }
   return {{"input", side(from, o.input)},

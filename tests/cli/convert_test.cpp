@@ -4,6 +4,22 @@
 namespace gonio::test {
 namespace {
 
+TEST(ConvertCommand, PlacesTheLargestDifferenceOfAListThatItLaidOnAGrid) {
+  const Folder f;
+  ASSERT_EQ(gonio(f,
+                  "synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.2 --layout "
+                  "in_plane -o ip.csv")
+                .code,
+            0);
+  const auto o = gonio(f, "convert ip.csv z.bsdf --to zemax --channels g --reach 30 --json");
+  ASSERT_EQ(o.code, 0) << o.err;
+  const auto at = o.json()["there_and_back"]["largest_at"];
+  for (const char* angle : {"theta_i_deg", "theta_o_deg"}) {
+    EXPECT_GE(at[angle].get<double>(), 0);
+    EXPECT_LE(at[angle].get<double>(), 90);
+  }
+}
+
 TEST(ConvertCommand, GoesByTheEndingOrByTheWord) {
   const Folder f;
   ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout mbsdf -o p.mbsdf").code, 0);

@@ -333,7 +333,7 @@ void there_and_back(const Table& from, const Table& to, Loss& loss) {
         const double d = difference(v, w);
         ++here.compared;
         here.rms += d * d;
-        if (d > here.largest) here.largest = d, here.largest_at = i;
+        if (d > here.largest) here.largest = d, here.largest_at = at.directions(i);
         if (rgl) differences[first / kChunk].push_back(d);
       }
   });

@@ -56,7 +56,7 @@ struct Loss {
   std::size_t compared = 0, lost = 0;  ///< values; those that nothing comes back for
   double rms = 0, largest = 0;         ///< differences
   std::optional<double> most;          ///< the one that 99 % do not pass; of RGL
-  std::size_t largest_at = 0;          ///< the source's sample
+  DirectionPair largest_at{};          ///< where that is
 };
 template <>
 inline constexpr std::array<std::string_view, 4> names_of<Loss::Method>{"copied", "listed",
