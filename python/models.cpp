@@ -14,6 +14,7 @@
 #include "module.h"
 #include "reports/audit/audit.h"
 #include "reports/own/audit_file.h"
+#include "table/format/measured_by.h"
 
 #include <fmt/format.h>
 #include <tbb/task_arena.h>
@@ -108,11 +109,12 @@ Owned term(const std::string& id,
 Table synth(const ModelArgument& m,
             const std::string& layout,
             const SynthOptions& options,
+            const std::string& aperture,
             int jobs) {
   const Jobs threads(jobs);
   SynthOptions s = options;
   s.layout = value_of<Layout>(layout, "layout");
-  Table t = synthesize(m.model, s);
+  Table t = synthesize(m.model, s, aperture.empty() ? Aperture{} : aperture_from(aperture));
   t.path = "synth";
   return t;
 }
@@ -164,7 +166,7 @@ void bind_models(nb::module_& m) {
   m.def("albedo", &albedo, "model"_a, "name"_a, "question"_a, "jobs"_a, others_run);
   m.def("term", &term, "id"_a, "number"_a, "parameters"_a, "at"_a);
   bind_options<SynthOptions>(m, "SynthOptions");
-  m.def("synth", &synth, "model"_a, "layout"_a, "options"_a, "jobs"_a, others_run);
+  m.def("synth", &synth, "model"_a, "layout"_a, "options"_a, "aperture"_a, "jobs"_a, others_run);
   m.def("audit", &audit_of, "ids"_a, "jobs"_a, others_run);
   m.def("provide", &foreign::provide, "file"_a, "text"_a, others_run);
   m.def(

@@ -476,18 +476,19 @@ def term(id: str, at: Mapping[str, _npt.ArrayLike] | None = None, *, number: str
 
 
 @_with_options(_gonio.SynthOptions, rest="parameters")
-def synth(model: Model, layout: str, *, jobs: int = 0, options: _gonio.SynthOptions, **parameters: Values) -> Table:
+def synth(model: Model, layout: str, *, aperture: str | None = None, jobs: int = 0, options: _gonio.SynthOptions, **parameters: Values) -> Table:
     """Table sampled from a model, with noise if asked: what ``gonio synth`` writes.
 
     Args:
         layout: "merl", "mbsdf", "utia", "rgl", "in_plane", "image_slice", "hemisphere" or "random".
+        aperture: full widths of the cones of light and detector in degrees, as "0.7,0.35", that each value is the mean over.
         {options}
         parameters: as in ``eval``.
 
     Raises:
         WrongUsage: a layout, a number or a parameter that is none.
     """
-    return Table._of(_gonio.synth(_model(model, parameters), layout, options, jobs))
+    return Table._of(_gonio.synth(_model(model, parameters), layout, options, aperture or "", jobs))
 
 
 def audit(ids: str | Iterable[str] = (), *, jobs: int = 0) -> Document:
