@@ -225,7 +225,6 @@ bool moves_to(const Problem& p,
   const double gain = f.solution.at.cost - other.solution.at.cost;
   const double rounding = p.rounding * static_cast<double>(all.counts.used);
   if (!(gain > lower_by * f.solution.at.cost && gain > rounding)) return false;
-  other.groups = f.groups;
   f = std::move(other);
   return true;
 }

@@ -174,8 +174,6 @@ Searched search_in(const Problem& p,
 
   announce("fitting all samples");
   f = minimise(p, data.all, f.model, f.huber);
-  f.groups = data.all.groups;
-  f.values = data.all.counts.samples;
   f.in_float = std::is_same_v<F, float> && float_suffices(p, f, data.all.counts.samples);
   watch.lap("solve_ms");
   Searched found{std::move(f), std::numeric_limits<double>::infinity(), std::move(scanned), {}};
@@ -203,7 +201,7 @@ Fitted minimise(const Problem& p, const FitData<F>& data, BoundModel from, doubl
   auto x = p.free.of(from.values);
   Solution solution = solve(evaluate, x, p.bounds, options);
   p.free.put(x, from.values);
-  return {std::move(from), huber, std::move(solution)};
+  return {std::move(from), huber, std::move(solution), false, data.groups, data.counts.samples};
 }
 
 template Fitted minimise(const Problem&, const FitData<float>&, BoundModel, double);
@@ -247,11 +245,7 @@ Searched search(Problem p,
   Searched s = search_in<float>(p, sampling, columns, watch, announce);
   if (s.best.in_float) return s;
   announce("fitting all samples in double");
-  const std::size_t groups = s.best.groups;
-  const double values = s.best.values;
   s.best = minimise(p, fit_data<double>(sampling), std::move(s.best.model), s.best.huber);
-  s.best.groups = groups;
-  s.best.values = values;
   watch.lap("solve_double_ms");
   return s;
 }

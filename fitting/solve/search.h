@@ -24,8 +24,8 @@ struct Fitted {
   double huber = no_huber;
   Solution solution;
   bool in_float = false;   ///< whether that was enough
-  std::size_t groups = 0;  ///< looked at
-  double values = 0;       ///< compared, see Sampling::count_of()
+  std::size_t groups = 0;  ///< of the data that it is the best fit of
+  double values = 0;       ///< compared there, see Sampling::count_of()
 };
 
 /// Best fit of `data`, all of the problem's free values moved from where `from` has them.

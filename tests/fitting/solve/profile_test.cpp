@@ -117,6 +117,8 @@ TEST(Profile, LeadsAFitOutOfAValleyThatIsNotTheLowest) {
   ASSERT_GT(lost, 2 * best);
   const Profile profile = gonio::profile(p.problem, p.data, p.data, p.data, f);
   EXPECT_GE(profile.moves, 1);
+  EXPECT_EQ(f.values, p.data.counts.samples) << "what judges need of a fit moves with it";
+  EXPECT_EQ(f.groups, p.data.groups);
   EXPECT_NEAR(f.solution.at.cost / best, 1, 1e-6);
   for (const auto& cell : profile.cells)
     if (!std::isnan(cell.cost_of_all)) {
