@@ -92,11 +92,8 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
   const auto asked =
       p.options.intervals == Intervals::bootstrap ? Intervals::automatic : p.options.intervals;
   const auto x = p.free.of(f.model.values);
-  const auto errors = [&](const Assessment& a) {
-    return uncertainty(a.sandwich, x, p.bounds, a.counts.samples);
-  };
-  const auto of_values = [&](const Assessment& a) {
-    return uncertainty(a.sandwich, x, p.bounds, a.counts.samples, stated);
+  const auto errors = [&](const Assessment& a, bool known) {
+    return uncertainty(a.sandwich, x, p.bounds, a.counts.samples, known);
   };
   const auto by_value = [&] {
     const bool clips = p.options.robust;  // then not all that was fitted is in the bread
@@ -110,17 +107,17 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
   constexpr const char* clustered = "clustered by incident angle";
   if (asked == Intervals::independent || (asked == Intervals::automatic && s.table().truth)) {
     auto a = by_value();
-    const auto u = of_values(a);
+    const auto u = errors(a, stated);
     return {std::move(a), u, u.std_error, 0, 0, independent};
   }
   auto a = assess(s, f.model, p.free, f.huber, true, nullptr, f.in_float);
   const std::size_t angles = a.incident_angles;
   if (asked == Intervals::by_angle && angles < 2)
     throw wrong_usage("intervals by_angle: the table has one incident angle");
-  auto u = errors(a);
+  auto u = errors(a, false);
   if (asked == Intervals::by_angle || enough_angles(angles))
     return {std::move(a), u, u.std_error, angles, angles, clustered};
-  const auto values = of_values(by_value());
+  const auto values = errors(by_value(), stated);
   if (angles < 2) return {std::move(a), values, values.std_error, angles, 0, independent};
   return {std::move(a),
           wider(std::move(u), values),
@@ -137,7 +134,7 @@ FitResult fit_and_judge(const Table& t,
                         SharedColumns& columns,
                         const std::function<void(const char*)>& phase,
                         bool tries) {
-  const FitOptions o = at_wavelengths(expanded(given), t);
+  const FitOptions o = expanded(given, t);
   const auto announce = [&](const char* what) {
     if (phase) phase(what);
   };

@@ -43,8 +43,7 @@ std::string compare(const Table& t,
       compare_models(t, o, models, [](const std::string&, double) { let_interrupt(); });
   add_spheres(t, choice);
   finish();
-  return to_json(choice, advise(choice),
-                 {t.path, t.sha256, t.format, std::string(name_of(o.metric))});
+  return to_json(choice, advise(choice), compared_table(t, o));
 }
 
 std::string compare_path(const std::string& path,

@@ -229,8 +229,7 @@ Exit run_models(const FitCall& o) {
   Spheres spheres = add_spheres(table, choice);
   in.finish();
   const Advice advice = advise(choice);
-  const ComparedTable compared{table.path, table.sha256, table.format,
-                               std::string(name_of(o.how.options.metric))};
+  const ComparedTable compared = compared_table(table, o.how.options);
   const std::string json = to_json(choice, advice, compared);
   out.write_document(json);
   if (out.has_page()) {

@@ -3,7 +3,6 @@
 
 #include <cmath>
 #include <filesystem>
-#include <utility>
 
 #include "base/text.h"
 #include "cli/line/command.h"
@@ -163,9 +162,9 @@ Exit run(const ConvertCall& o) {
   use(o);
   ConvertOptions options = o.convert;
   options.format = format_of(o);
+  options.channels = o.measured.channel_names();  // convert() picks them, and says what it drops
   AsMeasured measured = o.measured;
-  for (const auto& words : std::exchange(measured.channels, {}))
-    for (auto& name : split(words, ',')) options.channels.push_back(std::move(name));
+  measured.channels.clear();
   check_outputs({o.input}, {o.output, side_path(o.output)});
   Progress progress(o.quiet);
   progress("reading " + o.input);

@@ -66,9 +66,7 @@ std::string compare_for_page(const PageRequest& r,
         phase(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
   in.finish();
-  return to_json(
-      choice, advise(choice),
-      {in.table.path, in.table.sha256, in.table.format, std::string(name_of(how.options.metric))});
+  return to_json(choice, advise(choice), compared_table(in.table, how.options));
 }
 
 }  // namespace

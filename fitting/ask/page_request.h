@@ -1,7 +1,7 @@
 #pragma once
 /// \file
-/// What a page asks of the tables that people give it: reading, fitting, comparing models, by the program's own functions and answered
-/// with the program's own documents.  Compiled twice, as src/explore is: for tests, and as WebAssembly.
+/// Requests of a page about tables that people give it: read, fit, compare models.  The program's own functions answer them, with the
+/// program's own documents.  Compiled twice, as src/explore is: for tests, and as WebAssembly.
 
 #include <array>
 #include <functional>
@@ -38,7 +38,7 @@ inline constexpr auto description<PageRequest> = std::tuple{
 static_assert(describes_every_member<PageRequest>());
 
 /// The answer to a request in JSON, as JSON.
-/// \param phase  is told what is being done
+/// \param phase  called with what is being done
 /// \throws Error  as the program ends with
 std::string answer_page(const std::string& request,
                         const std::function<void(const std::string&)>& phase);

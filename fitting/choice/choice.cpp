@@ -171,7 +171,7 @@ ModelChoice compare_models(const Table& t,
       row.misses = d.misfit.told;
       if (progress)
         progress("leaving out angles of " + row.model, share(2.0 * static_cast<double>(k) + 1));
-      const FitOptions whole = at_wavelengths(expanded(o), t);
+      const FitOptions whole = expanded(o, t);
       const Problem p = pose(t, whole);
       const Sampling by_log = sampling_for(p, t, t.bins()).by(Metric::log, p.offset);
       residuals[k] = log_residuals(by_log, fitted.model, most_groups);

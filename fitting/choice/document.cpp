@@ -99,6 +99,10 @@ struct Description<ModelsDocument> {
   }
 };
 
+ComparedTable compared_table(const Table& t, const FitOptions& o) {
+  return {t.path, t.sha256, t.format, std::string(name_of(o.metric))};
+}
+
 std::string to_json(const ModelChoice& choice, const Advice& advice, const ComparedTable& table) {
   return json_text(ModelsDocument{choice, advice, table});
 }

@@ -13,6 +13,8 @@ struct ComparedTable {
   std::string path, sha256, format, metric;
 };
 
+ComparedTable compared_table(const Table&, const FitOptions&);
+
 std::string to_json(const ModelChoice&, const Advice&, const ComparedTable&);
 std::string models_schema();
 

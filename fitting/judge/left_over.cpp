@@ -171,7 +171,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
   find_noise(facts, stride, all.values);
   all.angles = angles.size();
   all.robust = p.options.robust;
-  all.stated = !s.table().errors.empty() && s.metric() != Metric::l2_cosine;
+  all.stated = s.in_uncertainties();
   return all;
 }
 

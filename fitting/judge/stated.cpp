@@ -9,8 +9,7 @@ std::optional<BesideStated> beside_stated(const Sampling& s,
                                           double cost,
                                           double values) {
   const double freedom = values - static_cast<double>(p.free.size());
-  if (s.table().errors.empty() || p.options.metric == Metric::l2_cosine ||
-      p.options.metric == Metric::relative || p.options.robust || freedom < 1)
+  if (!s.in_uncertainties() || s.metric() == Metric::relative || p.options.robust || freedom < 1)
     return {};
   // χ² is nearly the cube of a normal variate [Wilson, Hilferty 1931].
   constexpr double one_in_1000 = 3.09;

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What is left of a fit, beside the uncertainties that a table states.
+/// Residuals of a fit, beside the uncertainties that a table states.
 
 #include <optional>
 
@@ -11,11 +11,12 @@
 namespace gonio {
 
 struct BesideStated {
-  double chi2_per_freedom;  ///< Σ ((f − y)/u)² over values less unknowns
+  double chi2_per_freedom;  ///< squares of residuals in standard uncertainties, over values less
+                            ///< unknowns
   bool holds;               ///< not larger than chance makes in one of 1000 tables
 };
 
-/// None where nothing is stated, or residuals are not counted in it (l2_cosine, robust fits).
+/// None where nothing is stated, where residuals are not counted in it (l2_cosine) or large ones are clipped (relative, robust fits).
 /// \param cost  ½ Σ r²
 std::optional<BesideStated> beside_stated(const Sampling&,
                                           const Problem&,

@@ -297,7 +297,7 @@ std::vector<NextDirection> plan_next(const Table& whole,
                                      const std::function<void(const char*)>& phase) {
   const auto few = with_few_channels(whole);
   const Table& t = few ? *few : whole;
-  const FitOptions o = at_wavelengths(expanded(given), t);
+  const FitOptions o = expanded(given, t);
   const Problem p = pose(t, o);
   if (p.free.size() == 0)
     throw wrong_usage(

@@ -48,7 +48,7 @@ double fold(const BlockReader<F>& in,
   return std::accumulate(rest.begin(), rest.end(), 0.0);
 }
 
-/// What the block's samples are means over, by their numbers in its last column.
+/// Angles over which the block's samples are means, by their numbers in its last column.
 template <class F>
 void find_means(const FitData<F>& d, std::size_t samples, FitBlock<F>& b) {
   if (!d.aperture) return;

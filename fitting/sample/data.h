@@ -37,9 +37,8 @@ struct FitData {
   std::size_t groups = 0;
   SampleCounts counts;
 
-  std::size_t angle_columns = 5;  ///< of a block
-  std::shared_ptr<const ApertureAngles>
-      aperture;  ///< what each sample is a mean over; null: one direction
+  std::size_t angle_columns = 5;                   ///< of a block
+  std::shared_ptr<const ApertureAngles> aperture;  ///< angles that samples are means over
   /// Columns of a block for that many channels.
   std::size_t columns(std::size_t channels) const {
     return angle_columns + 2 * channels + (aperture ? 1 : 0);

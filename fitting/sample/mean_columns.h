@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the samples of a block are means over, as columns.
+/// Angles over which the samples of a block are means, as columns.
 
 #include <cstdint>
 #include <span>

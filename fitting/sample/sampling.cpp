@@ -251,7 +251,6 @@ bool BlockReader<F>::next() {
   return true;
 }
 
-/// Numbers of the block's samples; of one that is a copy, which weighs nothing, the first of all.
 template <class F>
 std::vector<std::size_t> BlockReader<F>::there() const {
   std::vector<std::size_t> all(sample_[0].begin(),
@@ -454,15 +453,13 @@ void BlockReader<F>::fill(std::size_t member, std::size_t channel) {
        static_cast<F>(sampling_.offset()), metric == Metric::relative, has_offset(metric),
        v.y.data(), v.target.data(), v.weight.data()},
       c);
-  if (const auto& errors = sampling_.table().errors; !errors.empty()) {
-    const bool log = metric == Metric::log || metric == Metric::relative,
-               alone = metric == Metric::uncertainty;
-    const auto& u = errors[channel];
-    for (std::size_t i = 0; i < n_ && (log || alone); ++i)
+  if (sampling_.in_uncertainties()) {
+    const auto& u = sampling_.table().errors[channel];
+    for (std::size_t i = 0; i < n_; ++i)
       if (v.weight[i] > 0) {
-        const double y = static_cast<double>(v.y[i]), of = log ? y + sampling_.offset() : 1;
-        v.weight[i] = static_cast<F>(static_cast<double>(weight_[i]) * of / u[sample[i]] /
-                                     (metric == Metric::relative ? y + sampling_.offset() : 1));
+        const double scale =
+            metric == Metric::log ? static_cast<double>(v.y[i]) + sampling_.offset() : 1;
+        v.weight[i] = static_cast<F>(static_cast<double>(weight_[i]) * scale / u[sample[i]]);
       }
   }
   counts_.masked[static_cast<std::size_t>(Mask::not_finite)] += c.not_finite;

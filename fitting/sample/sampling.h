@@ -118,6 +118,10 @@ class Sampling {
   /// Columns that the angles of a sample take.
   std::size_t angle_columns() const { return way_.frame ? 11 : 5; }
   Metric metric() const { return way_.metric; }
+  /// True where residuals are in standard uncertainties that the table states.
+  bool in_uncertainties() const {
+    return !table_.errors.empty() && way_.metric != Metric::l2_cosine;
+  }
   /// Samples of this one, compared in another way.
   Sampling by(Metric, double offset) const;
   /// This one, in which some samples weigh nothing.
@@ -164,7 +168,7 @@ class Sampling {
   std::vector<bool> copied_;  ///< [row]; empty: none is
 };
 
-/// What the samples of a table with an aperture are means over; null where it has none.  Those of the last two tables are kept:
+/// Angles over which the samples of a table with an aperture are means; null where it has none.  Those of the last two tables are kept:
 /// they take a millisecond a sample.  Throws bad_input where samples are more than 2¹⁶.
 std::shared_ptr<const ApertureAngles> aperture_angles(const Table&, Bins, bool frame);
 
@@ -217,12 +221,12 @@ class BlockReader {
   std::size_t size() const { return n_; }  ///< groups; what follows up to padded() is masked
   std::size_t padded() const { return (n_ + padding - 1) / padding * padding; }
   SampleBlock<F> angles() const;
-  /// What the block's samples are means over; null where they are none.
+  /// Angles over which the block's samples are means; null where they are none.
   const std::shared_ptr<const MeanColumns<F>>& means() const { return means_; }
   const Values& values(std::size_t member, std::size_t channel) const {
     return values_[member * sampling_.channels() + channel];
   }
-  /// Of the first member, 0 where it is absent.
+  /// Numbers of the first member's samples; of one that is absent, which weighs nothing, the first of all.
   std::vector<std::size_t> there() const;
   /// Indices in the table, `absent` where a group has no such member.
   const std::size_t* sample(std::size_t member) const { return sample_[member].data(); }

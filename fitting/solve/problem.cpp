@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 #include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
@@ -121,7 +122,8 @@ FitOptions options_for(FitOptions o, const std::string& model) {
   return o;
 }
 
-FitOptions at_wavelengths(FitOptions o, const Table& t) {
+FitOptions expanded(FitOptions given, const Table& t) {
+  FitOptions o = expanded(std::move(given));
   const auto metal = std::ranges::find(o.fixed, "metal", &Setting::name);
   if (metal == o.fixed.end()) return o;
   const Material* material = find_metal(metal->text);

@@ -26,12 +26,12 @@ struct Problem {
 /// A preset's name becomes the spec over its own parameters; where it has none such, its spec with what the preset holds held, whose
 /// parameters a fit leaves free.  An anisotropy held at 0 makes it the model of the isotropic terms.
 FitOptions expanded(FitOptions);
+/// The same for a table: a metal is held at the wavelengths of its channels, where these are such; else at those that stand for r, g
+/// and b.
+FitOptions expanded(FitOptions, const Table&);
 
 /// Options for another model: what it has no parameter for is left out.
 FitOptions options_for(FitOptions, const std::string& model);
-
-/// A metal that is held is so at the wavelengths of the channels, where these are such; else at those that stand for r, g and b.
-FitOptions at_wavelengths(FitOptions, const Table&);
 
 /// Throws wrong usage for an anisotropic model where the table does not say how its surface was turned.
 void check_azimuths(const Table&, const Model&);

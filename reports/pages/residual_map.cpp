@@ -42,12 +42,8 @@ ResidualMap make_residual_map(const Table& table, const BoundModel& fitted) {
       x.push_back(fitted.model.anisotropic ? at.frame(i)
                                            : FrameAngles<double>{at(i), 0, 0, 0, 0, 0, 0});
     const auto directions = [&](std::size_t i) { return at.directions(first + i); };
-    const auto model = table.aperture
-                           ? mean_values(fitted,
-                                         ApertureAngles(x.size(), directions, table.aperture,
-                                                        fitted.model.anisotropic),
-                                         0, x.size())
-                           : evaluate(fitted, x);
+    const auto model = table.aperture ? mean_values(fitted, x.size(), directions, table.aperture)
+                                      : evaluate(fitted, x);
     for (std::size_t i = 0; i < x.size(); ++i) {
       if (!(x[i].nol > 0 && x[i].nov > 0)) continue;
       if (!copied.empty() && copied[(first + i) / at.row_size()]) continue;

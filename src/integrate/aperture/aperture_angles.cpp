@@ -69,9 +69,10 @@ class Cone {
   Vector x_, y_;
 };
 
-/// One pair of directions: the variable of the rule, its weight, and all its angles.
+/// One pair of directions.
 struct Seen {
-  double v, weight;
+  double v;  ///< ln sin θ_h
+  double weight;
   std::size_t part;  ///< of those that have a rule each
   FrameAngles<double> a;
 };
@@ -113,13 +114,10 @@ std::vector<double> roots(std::span<const double> a,
   return found;
 }
 
-/// Gauss rule of so many nodes for the measure of v, or of fewer where the pairs differ in fewer.
-/// \param angle  θ_h of a node, of what v is there
-template <class Angle>
+/// Gauss rule of so many nodes for the measure of ln sin θ_h, or of fewer where the pairs differ in fewer.
 void add_rule(std::span<const Seen> seen,
               std::size_t nodes,
               bool frame,
-              const Angle& angle,
               std::vector<Weighted>& out) {
   double total = 0, low = seen[0].v, high = low;
   for (const auto& s : seen) {
@@ -164,10 +162,10 @@ void add_rule(std::span<const Seen> seen,
     if (!(weight > 0)) continue;
     for (double& of : sum) of /= weight;
     constexpr double least = 1e-6;  // a mean by weights of both signs may leave the range
-    const double theta = angle(x[j]), sine = std::sin(theta);
+    const double sine = std::min(std::exp(x[j]), 1.0);
     Weighted w{weight,
-               {{std::clamp(sum[0], least, 1.0), std::clamp(sum[1], least, 1.0), std::cos(theta),
-                 std::clamp(sum[2], least, 1.0), sine * sine},
+               {{std::clamp(sum[0], least, 1.0), std::clamp(sum[1], least, 1.0),
+                 std::sqrt(1 - sine * sine), std::clamp(sum[2], least, 1.0), sine * sine},
                 0,
                 0,
                 0,
@@ -185,17 +183,12 @@ void add_rule(std::span<const Seen> seen,
 }
 
 /// A rule for each part.
-template <class Angle>
-void add_rules(std::vector<Seen>& seen,
-               std::size_t nodes,
-               bool frame,
-               const Angle& angle,
-               std::vector<Weighted>& out) {
+void add_rules(std::vector<Seen>& seen, std::size_t nodes, bool frame, std::vector<Weighted>& out) {
   std::ranges::stable_sort(seen, {}, &Seen::part);
   for (auto from = seen.begin(); from != seen.end();) {
     const auto to =
         std::find_if(from, seen.end(), [&](const Seen& s) { return s.part != from->part; });
-    add_rule({from, to}, nodes, frame, angle, out);
+    add_rule({from, to}, nodes, frame, out);
     from = to;
   }
 }
@@ -268,16 +261,8 @@ class Sample {
     }
     if (seen.empty()) return;
     const double range = high - low;
-    add_rules(seen,
-              range < 0.02   ? 1
-              : range < 0.16 ? 2
-              : range < 0.7  ? 3
-                             : 4,
-              frame_, angle_of, out_);
+    add_rules(seen, range < 0.02 ? 1 : range < 0.16 ? 2 : range < 0.7 ? 3 : 4, frame_, out_);
   }
-  /// θ_h by ln sin θ_h.
-  static double angle_of(double v) { return std::asin(std::min(std::exp(v), 1.0)); }
-
   /// h by its slopes in elliptic rings about the normal, one direction in the narrower cone: the other follows, dω = 4 VoH dω_h.
   void around_the_peak() {
     constexpr double margin = 1.15;  // of a reach for small cones
@@ -299,7 +284,7 @@ class Sample {
       const double octave = std::floor((s.v - lowest) / std::numbers::ln2);
       s.part += 4 * turns * static_cast<std::size_t>(std::max(octave, -1.0) + 1);
     }
-    add_rules(seen, frame_ ? 2 : 3, frame_, angle_of, out_);
+    add_rules(seen, frame_ ? 2 : 3, frame_, out_);
   }
   /// \param window  how far from the cones' own azimuth the ring is looked at, to either side
   void ring(double from, double to, bool innermost, double window, std::vector<Seen>& seen) const {
@@ -345,8 +330,7 @@ class Sample {
 ApertureAngles::ApertureAngles(std::size_t samples,
                                const std::function<DirectionPair(std::size_t)>& directions,
                                const Aperture& aperture,
-                               bool frame)
-    : aperture_(aperture) {
+                               bool frame) {
   std::vector<std::vector<Weighted>> all(samples);
   tbb::parallel_for(std::size_t{0}, samples, [&](std::size_t i) {
     all[i] = Sample(directions(i), aperture, frame).angles();

@@ -30,16 +30,13 @@ class ApertureAngles {
                  const std::function<DirectionPair(std::size_t)>& directions,
                  const Aperture&,
                  bool frame);
-  std::size_t samples() const { return end_.size(); }
   /// Angles of sample i: begin(i) to end(i).
   std::size_t begin(std::size_t i) const { return i == 0 ? 0 : end_[i - 1]; }
   std::size_t end(std::size_t i) const { return end_[i]; }
   double weight(std::size_t k) const { return weights_[k]; }
   const FrameAngles<double>& angles(std::size_t k) const { return angles_[k]; }
-  const Aperture& aperture() const { return aperture_; }
 
  private:
-  Aperture aperture_;
   std::vector<FrameAngles<double>> angles_;
   std::vector<double> weights_;
   std::vector<std::uint32_t> end_;

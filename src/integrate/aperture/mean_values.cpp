@@ -20,4 +20,12 @@ std::vector<std::vector<double>> mean_values(const BoundModel& b,
   return all;
 }
 
+std::vector<std::vector<double>> mean_values(
+    const BoundModel& b,
+    std::size_t pairs,
+    const std::function<DirectionPair(std::size_t)>& directions,
+    const Aperture& aperture) {
+  return mean_values(b, ApertureAngles(pairs, directions, aperture, b.model.anisotropic), 0, pairs);
+}
+
 }  // namespace gonio

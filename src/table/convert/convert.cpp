@@ -15,6 +15,7 @@
 #include "table/format/formats.h"
 #include "table/format/measured_by.h"
 #include "table/format/rgl/resample.h"
+#include "table/format/wavelengths.h"
 #include "table/nearest_sample.h"
 
 #include <fmt/format.h>
@@ -52,14 +53,9 @@ void for_each_chunk(std::size_t n, F f) {
                     [&](std::size_t k) { f(k * kChunk, std::min(n, (k + 1) * kChunk)); });
 }
 
-/// The wavelength [nm] that a channel is named after.
-std::optional<double> wavelength(const std::string& channel) {
-  const auto nm = number_from<double>(channel);
-  return nm && *nm > 0 && std::isfinite(*nm) ? nm : std::nullopt;
-}
 bool is_spectrum(const std::vector<std::string>& channels) {
   return channels.size() > 1 &&
-         std::ranges::all_of(channels, [](const auto& c) { return wavelength(c).has_value(); });
+         std::ranges::all_of(channels, [](const auto& c) { return wavelength_of(c).has_value(); });
 }
 
 Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
@@ -70,7 +66,7 @@ Table with_channels(const Table& t, const ConvertOptions& o, Loss& loss) {
   std::vector<std::size_t> picked;
   auto wanted = o.channels.empty() ? t.channels : o.channels;
   const bool spectrum = o.format == "rgl" && is_spectrum(wanted);
-  if (spectrum) std::ranges::stable_sort(wanted, {}, wavelength);
+  if (spectrum) std::ranges::stable_sort(wanted, {}, wavelength_of);
   for (const auto& name : wanted) {
     picked.push_back(channel_named(t, name));
     const auto& own = t.channels[picked.back()];
@@ -425,7 +421,7 @@ Conversion to_rgl(const Table& from, const ConvertOptions& o, Loss loss) {
   std::vector<std::vector<double>> weight;
   if (spectrum) {
     for (std::size_t c = 0; c < channels; ++c) {
-      names.push_back(fmt::format("{:.6g}", *wavelength(from.channels[c])));
+      names.push_back(fmt::format("{:.6g}", *wavelength_of(from.channels[c])));
       if (c > 0 && names[c] == names[c - 1])
         throw wrong_usage(fmt::format("two channels of wavelength {} nm", names[c]));
       weight.emplace_back(channels);

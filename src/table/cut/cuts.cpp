@@ -72,11 +72,7 @@ bool finish(Cut& cut,
   }
   if (!fitted) return true;
   const auto at = [&](std::size_t i) { return place(cut, phi_d, points[i].deg); };
-  cut.model =
-      aperture
-          ? mean_values(*fitted, ApertureAngles(x.size(), at, aperture, fitted->model.anisotropic),
-                        0, x.size())
-          : evaluate(*fitted, x);
+  cut.model = aperture ? mean_values(*fitted, x.size(), at, aperture) : evaluate(*fitted, x);
   for (auto& channel : cut.model)
     for (std::size_t i = 0; i < x.size(); ++i)
       if (!(x[i].nol > 0 && x[i].nov > 0)) channel[i] = none;

@@ -86,7 +86,7 @@ namespace {
 std::map<double, std::size_t> bands_of(const Table& t) {
   std::map<double, std::size_t> bands;
   for (std::size_t k = 0; k < t.channels.size(); ++k)
-    if (const auto nm = wavelength_of(t.channels[k])) bands.emplace(*nm, k);
+    if (const auto nm = wavelength_with_unit(t.channels[k])) bands.emplace(*nm, k);
   return bands;
 }
 
@@ -127,7 +127,7 @@ void mix(Table& t,
 std::size_t channel_named(const Table& t, const std::string& name) {
   if (const auto at = std::ranges::find(t.channels, name); at != t.channels.end())
     return static_cast<std::size_t>(at - t.channels.begin());
-  if (const auto asked = name.ends_with("nm") ? wavelength_of(name) : std::nullopt) {
+  if (const auto asked = name.ends_with("nm") ? wavelength_with_unit(name) : std::nullopt) {
     const auto bands = bands_of(t);
     const auto nearest = std::ranges::min_element(
         bands, {}, [&](const auto& b) { return std::abs(b.first - *asked); });
@@ -184,14 +184,18 @@ void take_rgb(Table& t) {
   mix(t, {"r", "g", "b"}, weights);
 }
 
+std::vector<std::string> AsMeasured::channel_names() const {
+  std::vector<std::string> names;
+  for (const auto& words : channels)
+    for (auto& name : split(words, ',')) names.push_back(std::move(name));
+  return names;
+}
+
 void take(Table& t, const AsMeasured& how) {
   if (how.aperture) t.aperture = aperture_from(*how.aperture);
   if (how.reference) take_reference(t, *how.reference);
   if (how.rgb && !how.channels.empty()) throw wrong_usage("channels or rgb: one of them");
-  std::vector<std::string> channels;
-  for (const auto& words : how.channels)
-    for (auto& name : split(words, ',')) channels.push_back(std::move(name));
-  if (!channels.empty()) pick_channels(t, channels);
+  if (!how.channels.empty()) pick_channels(t, how.channel_names());
   if (how.rgb) take_rgb(t);
   if (how.mask) leave_out(t, *how.mask);
 }

@@ -48,8 +48,10 @@ void take_rgb(Table&);
 struct AsMeasured {
   std::optional<std::string> mask = {}, aperture = {};
   std::optional<double> reference = {};
-  std::vector<std::string> channels = {};
+  std::vector<std::string> channels = {};  ///< one or several a word, as 450nm,550nm
   bool rgb = false;
+
+  std::vector<std::string> channel_names() const;
 };
 template <>
 inline constexpr auto description<AsMeasured> = std::tuple{

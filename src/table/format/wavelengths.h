@@ -10,8 +10,10 @@
 
 namespace gonio {
 
-/// Wavelength that a channel's name is [nm]: 550, or 550nm.
-std::optional<double> wavelength_of(std::string_view channel);
+/// Wavelength that a name is, a number [nm].
+std::optional<double> wavelength_of(std::string_view name);
+/// The same of a name that may have its unit, as 550nm.
+std::optional<double> wavelength_with_unit(std::string_view name);
 /// Of all channels; of a table with one that is named "f", of the note "wavelength".  Empty where one is none.
 std::vector<double> wavelengths_of(const Table&);
 
