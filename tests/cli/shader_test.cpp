@@ -64,7 +64,8 @@ TEST(ShaderCommand, WritesADerivativeOnce) {
                        "--without-evidence");
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_EQ(o.json()["results"].size(), 2U);
-  EXPECT_NE(o.json()["source"].get<std::string>().find("derivatives is unknown"), std::string::npos);
+  EXPECT_NE(o.json()["source"].get<std::string>().find("derivatives is unknown"),
+            std::string::npos);
 }
 
 TEST(ShaderCommand, FoldsAFitsParametersInButForThoseNamed) {
