@@ -39,7 +39,7 @@ struct StackSynthOptions {
 };
 /// What `gonio synth` takes for stacks alone.
 template <>
-inline constexpr auto description<StackSynthOptions> = std::tuple{
+inline constexpr auto description<StackSynthOptions> = FieldList{
     Field{"parameters", &StackSynthOptions::parameters,
           "Map: image with a channel for each parameter that varies, as alpha or kd.R"},
     Field{"normals", &StackSynthOptions::normals, "Map: image of normals, linear in [-1, 1]"},

@@ -43,7 +43,7 @@ struct SynthOptions {
   bool uncertainty = false;  ///< whether the table states noise × value as uncertainty
 };
 template <>
-inline constexpr auto description<SynthOptions> = std::tuple{
+inline constexpr auto description<SynthOptions> = FieldList{
     Field{"bins", &SynthOptions::bins, "where samples sit in their bins, of layouts with bins"},
     Field{"samples", &SynthOptions::samples, "number of samples of the random layout",
           Numbers{1, 1e7}},

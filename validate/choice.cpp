@@ -30,17 +30,17 @@ constexpr std::string_view coat_word = "coat:";
 
 template <>
 inline constexpr auto description<Budgets::ColourDifference> =
-    std::tuple{Field{"limit", &Budgets::ColourDifference::limit,
-                     "CIEDE2000 under a uniform white sky", amounts},
-               Field{"quantile", &Budgets::ColourDifference::quantile,
-                     "of the domain that keeps it; 1: all", shares, or_default}};
+    FieldList{Field{"limit", &Budgets::ColourDifference::limit,
+                    "CIEDE2000 under a uniform white sky", amounts},
+              Field{"quantile", &Budgets::ColourDifference::quantile,
+                    "of the domain that keeps it; 1: all", shares, or_default}};
 template <>
 inline constexpr auto description<Budgets::Time> =
-    std::tuple{Field{"limit", &Budgets::Time::limit, "times the baseline's time", amounts},
-               Field{"baseline", &Budgets::Time::baseline,
-                     "spec of a model, measured in the same run", not_empty}};
+    FieldList{Field{"limit", &Budgets::Time::limit, "times the baseline's time", amounts},
+              Field{"baseline", &Budgets::Time::baseline,
+                    "spec of a model, measured in the same run", not_empty}};
 template <>
-inline constexpr auto description<Budgets> = std::tuple{
+inline constexpr auto description<Budgets> = FieldList{
     Field{"albedo_error", if_there(&Budgets::albedo_error),
           "directional albedo, from the reference's", amounts},
     Field{"fresnel_error", if_there(&Budgets::fresnel_error),
@@ -62,7 +62,7 @@ struct Description<Choice::Domain> {
   static constexpr auto fields() {
     using D = Choice::Domain;
     constexpr Numbers any{};
-    return std::tuple{
+    return FieldList{
         field("roughness", if_there(per_channel(&D::roughness)), "as an artist sets it", any),
         field("mu", if_there(per_channel(&D::mu)),
               "cosine of directions and the normal; else 0.05 to 1", any),
@@ -101,7 +101,7 @@ struct Description<Choice> {
   }
   static constexpr auto fields() {
     using S = Shipped;
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.choice/1"),
         field("model", shipped(&S::model), "spec of a model, or a preset", not_empty),
         field("parameters", shipped(&S::parameters),

@@ -12,7 +12,7 @@
 namespace gonio {
 
 template <>
-inline constexpr auto description<BudgetCheck> = std::tuple{
+inline constexpr auto description<BudgetCheck> = FieldList{
     Field{"budget", &BudgetCheck::budget, "its key in the choice"},
     Field{"title", [](const BudgetCheck& b) { return title_of(b.budget); }, "what it limits"},
     Field{"limit", &BudgetCheck::limit, "that the choice sets"},
@@ -33,13 +33,13 @@ static_assert(describes_every_member<BudgetCheck>());
 
 template <>
 inline constexpr auto description<UsedParameter> =
-    std::tuple{Field{"name", &UsedParameter::name, "as gonio models lists it"},
-               Field{"values", &UsedParameter::values,
-                     "one, or one per channel; empty where the domain varies them"},
-               Field{"from", &UsedParameter::from, "who sets it"}};
+    FieldList{Field{"name", &UsedParameter::name, "as gonio models lists it"},
+              Field{"values", &UsedParameter::values,
+                    "one, or one per channel; empty where the domain varies them"},
+              Field{"from", &UsedParameter::from, "who sets it"}};
 
 template <>
-inline constexpr auto description<Suggestion> = std::tuple{
+inline constexpr auto description<Suggestion> = FieldList{
     Field{"model", &Suggestion::model, "the cheapest that keeps every budget, or the nearest"},
     Field{"scattering", &Suggestion::scattering, "beside it"},
     Field{"holds", &Suggestion::holds, "whether it keeps every budget"},
@@ -50,7 +50,7 @@ inline constexpr auto description<Suggestion> = std::tuple{
 static_assert(describes_every_member<Suggestion>());
 
 template <>
-inline constexpr auto description<Validation> = std::tuple{
+inline constexpr auto description<Validation> = FieldList{
     constant_text("schema", "gonio.validation/1"),
     Field{"choice", &Validation::path, "path of the choice"},
     Field{"model", &Validation::model, "that is to be shipped"},

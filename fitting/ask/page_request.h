@@ -30,7 +30,7 @@ struct PageRequest {
   std::vector<std::string> models;  ///< of `models`
 };
 template <>
-inline constexpr auto description<PageRequest> = std::tuple{
+inline constexpr auto description<PageRequest> = FieldList{
     Field{"do", &PageRequest::command, "what is asked"},
     Field{"file", &PageRequest::file, "the table", not_empty},
     Field{"options", &PageRequest::options, "words of gonio fit's options", or_default},

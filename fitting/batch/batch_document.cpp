@@ -52,12 +52,12 @@ auto sum(const BatchFit& f) {
 
 template <>
 inline constexpr auto description<BatchParameter> =
-    std::tuple{Field{"value", per_channel(&BatchParameter::value), "fitted value"},
-               Field{"std_error", per_channel(&BatchParameter::std_error),
-                     "standard error; null where it is not known"},
-               Field{"status", per_channel(&BatchParameter::status), ""},
-               Field{"limit", per_channel(&BatchParameter::limit),
-                     "one-sided 95 % bound where the status is upper_limit or lower_limit"}};
+    FieldList{Field{"value", per_channel(&BatchParameter::value), "fitted value"},
+              Field{"std_error", per_channel(&BatchParameter::std_error),
+                    "standard error; null where it is not known"},
+              Field{"status", per_channel(&BatchParameter::status), ""},
+              Field{"limit", per_channel(&BatchParameter::limit),
+                    "one-sided 95 % bound where the status is upper_limit or lower_limit"}};
 
 template <>
 struct Description<BatchFit> {
@@ -75,7 +75,7 @@ struct Description<BatchFit> {
       field("misfit_told", &BatchFit::misfit_told, "whether that is more than luck");
 
   static constexpr auto fields() {
-    return std::tuple{
+    return FieldList{
         model,
         field("channels", &BatchFit::channels, "names of the table's channels"),
         field("parameters", by_name(&BatchFit::parameters), "parameters by name"),
@@ -103,7 +103,7 @@ struct Description<BatchRow> {
       field("message", &BatchRow::message, "why there is no fit; else why the search ended");
 
   static constexpr auto fields() {
-    return std::tuple{
+    return FieldList{
         path,
         field(
             "document",
@@ -124,11 +124,11 @@ struct Description<BatchRow> {
 };
 
 template <>
-inline constexpr auto description<Kept> = std::tuple{
+inline constexpr auto description<Kept> = FieldList{
     Field{"made_with", &Kept::made_with, "all that determines the result beside the table's bytes"},
     Field{"preview", &Kept::preview, "small pictures, for the summary"}};
 template <>
-inline constexpr auto description<Document> = std::tuple{
+inline constexpr auto description<Document> = FieldList{
     inlined(&Document::fit), Field{"batch", if_there(&Document::batch), "of one table of a batch"}};
 
 template <>
@@ -140,7 +140,7 @@ struct Description<KeptFit> {
   }
   static constexpr auto fields() {
     using F = BatchFit;
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.fit/1"),
         field("model", of_fit(&F::model), ""),
         field("channels", of_fit(&F::channels), ""),
@@ -176,7 +176,7 @@ struct Description<Failure> {
     return at(&Failure::row, member);
   }
   static constexpr auto fields() {
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.failure/1"),
         group("input", "the table", field("path", of_row(&BatchRow::path), "path of the table")),
         field("status", of_row(&BatchRow::outcome), ""),
@@ -195,7 +195,7 @@ struct Description<Failure> {
 };
 
 template <>
-inline constexpr auto description<LeftOutDocument> = std::tuple{
+inline constexpr auto description<LeftOutDocument> = FieldList{
     Field{"document", &LeftOutDocument::document, "its name, beside the summary"},
     Field{"why", &LeftOutDocument::why, "made_otherwise: by another version or with other options"},
     Field{"path", &LeftOutDocument::path, "path of its table; empty where it cannot be read"},
@@ -213,21 +213,21 @@ struct Description<BatchSummary> {
     return all;
   }
   static constexpr auto fields() {
-    return std::tuple{constant_text("schema", "gonio.batch/1"),
-                      field("made_with", &BatchSummary::made_with,
-                            "all that determines a result beside the table's bytes"),
-                      field(
-                          "part",
-                          [](const BatchSummary& s) {
-                            return s.part.empty() ? std::nullopt : std::optional(s.part);
-                          },
-                          "K/N where these are only the tables of one part, else null"),
-                      field("counts", counts, "number of tables by status"),
-                      field("missing", &BatchSummary::missing,
-                            "paths of the tables that nobody has tried yet in this way"),
-                      field("left_out", &BatchSummary::left_out,
-                            "documents that lie beside the summary and are not in it"),
-                      field("tables", &BatchSummary::rows, "")};
+    return FieldList{constant_text("schema", "gonio.batch/1"),
+                     field("made_with", &BatchSummary::made_with,
+                           "all that determines a result beside the table's bytes"),
+                     field(
+                         "part",
+                         [](const BatchSummary& s) {
+                           return s.part.empty() ? std::nullopt : std::optional(s.part);
+                         },
+                         "K/N where these are only the tables of one part, else null"),
+                     field("counts", counts, "number of tables by status"),
+                     field("missing", &BatchSummary::missing,
+                           "paths of the tables that nobody has tried yet in this way"),
+                     field("left_out", &BatchSummary::left_out,
+                           "documents that lie beside the summary and are not in it"),
+                     field("tables", &BatchSummary::rows, "")};
   }
 };
 
@@ -300,9 +300,9 @@ bool is_batch_document(const std::string& path) {
 std::string batch_csv(const std::vector<BatchRow>& rows) {
   using Row = Description<BatchRow>;
   using Fit = Description<BatchFit>;
-  constexpr std::tuple first{Row::path, field("document", &BatchRow::document, ""), Row::status,
-                             Row::exit_code};
-  constexpr std::tuple last{
+  constexpr FieldList first{Row::path, field("document", &BatchRow::document, ""), Row::status,
+                            Row::exit_code};
+  constexpr FieldList last{
       Fit::log_rms,
       Fit::rms,
       Fit::cost,
@@ -312,7 +312,7 @@ std::string batch_csv(const std::vector<BatchRow>& rows) {
       Fit::misfit_told,
       field(
           "warnings", [](const BatchFit& f) { return f.warnings.size(); }, "")};
-  const std::string none(std::tuple_size_v<decltype(last)> - 1, ',');
+  const std::string none(decltype(last)::size - 1, ',');
 
   // A document of many channels with names of its own gives all other tables their columns, too.
   constexpr std::size_t most_cells = std::size_t{1} << 26, each = 4;

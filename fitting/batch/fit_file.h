@@ -22,7 +22,7 @@ struct HowFitted {
   AsMeasured measured = {};
 };
 template <>
-inline constexpr auto description<HowFitted> = std::tuple{
+inline constexpr auto description<HowFitted> = FieldList{
     inlined(&HowFitted::options),
     Field{"bins", &HowFitted::bins,
           "where a sample sits in its bin: centre or edge (default: as the file says, or centre)"},

@@ -20,7 +20,7 @@
 namespace gonio {
 
 template <>
-inline constexpr auto description<BatchList> = std::tuple{
+inline constexpr auto description<BatchList> = FieldList{
     constant_text("schema", "gonio.list/1"),
     Field{"made_with", &BatchList::made_with,
           "all that determines a result beside the table's bytes"},

@@ -9,17 +9,17 @@ namespace gonio {
 
 template <>
 inline constexpr auto description<Thumbnail> =
-    std::tuple{Field{"at", &Thumbnail::at, "angle that the curve is at"},
-               Field{"at_deg", "°", &Thumbnail::at_deg, ""},
-               Field{"along", &Thumbnail::along, "angle that varies along the curve"},
-               Field{"channels", &Thumbnail::channels, "channels shown: all, or four of more"},
-               Field{"data_deg", "°", &Thumbnail::data_deg, "places of the data, ascending"},
-               Field{"data", "1/sr", &Thumbnail::data, "data by channel and place"},
-               Field{"model_deg", "°", &Thumbnail::model_deg, "places of the model, ascending"},
-               Field{"model", "1/sr", &Thumbnail::model, "model by channel and place"}};
+    FieldList{Field{"at", &Thumbnail::at, "angle that the curve is at"},
+              Field{"at_deg", "°", &Thumbnail::at_deg, ""},
+              Field{"along", &Thumbnail::along, "angle that varies along the curve"},
+              Field{"channels", &Thumbnail::channels, "channels shown: all, or four of more"},
+              Field{"data_deg", "°", &Thumbnail::data_deg, "places of the data, ascending"},
+              Field{"data", "1/sr", &Thumbnail::data, "data by channel and place"},
+              Field{"model_deg", "°", &Thumbnail::model_deg, "places of the model, ascending"},
+              Field{"model", "1/sr", &Thumbnail::model, "model by channel and place"}};
 
 template <>
-inline constexpr auto description<Preview> = std::tuple{
+inline constexpr auto description<Preview> = FieldList{
     Field{"curve", &Preview::curve, "null where no cut shows data"},
     Field{"albedo", &Preview::albedo, "albedo of the model at 30°, by channel"},
     Field{"sphere", &Preview::sphere,

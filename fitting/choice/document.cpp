@@ -18,7 +18,7 @@ struct Description<ModelRow> {
   static constexpr auto fields() {
     constexpr Numbers amounts{0, Numbers::any};
     using R = ModelRow;
-    return std::tuple{
+    return FieldList{
         field("model", &R::model, "spec or preset, as asked"),
         field("converged", &R::converged, "false of one that was not compared, too"),
         field("misses", &R::misses, "whether it misses the table by more than noise"),
@@ -75,7 +75,7 @@ struct Description<ModelsDocument> {
   }
 
   static constexpr auto fields() {
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.models/1"),
         group("input", "table", field("path", table(&ComparedTable::path), ""),
               field("sha256", table(&ComparedTable::sha256), "of the file"),

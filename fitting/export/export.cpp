@@ -21,23 +21,23 @@ namespace gonio {
 
 template <>
 inline constexpr auto description<ExportPlace> =
-    std::tuple{Field{"theta_i", "°", &ExportPlace::theta_i, "of the light"},
-               Field{"phi_i", "°", &ExportPlace::phi_i, "in (−180, 180]"},
-               Field{"theta_o", "°", &ExportPlace::theta_o, "of the view"},
-               Field{"phi_o", "°", &ExportPlace::phi_o, "in (−180, 180]"}};
+    FieldList{Field{"theta_i", "°", &ExportPlace::theta_i, "of the light"},
+              Field{"phi_i", "°", &ExportPlace::phi_i, "in (−180, 180]"},
+              Field{"theta_o", "°", &ExportPlace::theta_o, "of the view"},
+              Field{"phi_o", "°", &ExportPlace::phi_o, "in (−180, 180]"}};
 template <>
 inline constexpr auto description<ExportResidual> =
-    std::tuple{Field{"rms", &ExportResidual::rms, "root mean square of the relative distance"},
-               Field{"largest", &ExportResidual::largest, "largest relative distance"},
-               Field{"largest_at", &ExportResidual::largest_at, "where that is"}};
+    FieldList{Field{"rms", &ExportResidual::rms, "root mean square of the relative distance"},
+              Field{"largest", &ExportResidual::largest, "largest relative distance"},
+              Field{"largest_at", &ExportResidual::largest_at, "where that is"}};
 static_assert(describes_every_member<ExportResidual>());
 template <>
 inline constexpr auto description<ExportVariant> =
-    std::tuple{Field{"variant", &ExportVariant::variant, "as the target names it"},
-               Field{"residual", &ExportVariant::residual, "of what was written, computed so"}};
+    FieldList{Field{"variant", &ExportVariant::variant, "as the target names it"},
+              Field{"residual", &ExportVariant::residual, "of what was written, computed so"}};
 
 template <>
-inline constexpr auto description<Export> = std::tuple{
+inline constexpr auto description<Export> = FieldList{
     constant_text("schema", "gonio.export/1"),
     Field{"target", &Export::target, "format that was written"},
     Field{"fit", &Export::fit, "path of the fit"},

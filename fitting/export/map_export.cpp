@@ -31,7 +31,7 @@
 namespace gonio {
 
 template <>
-inline constexpr auto description<MapExport> = std::tuple{
+inline constexpr auto description<MapExport> = FieldList{
     constant_text("schema", "gonio.map_export/1"),
     Field{"map", &MapExport::map, "path of the map"},
     Field{"model", &MapExport::model, "spec of the map's fits"},

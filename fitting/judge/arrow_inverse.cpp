@@ -3,7 +3,7 @@
 namespace gonio {
 namespace {
 
-void put(const std::vector<std::size_t>& rows, const Eigen::MatrixXd& from, RowMajor& to) {
+void put(const std::vector<std::size_t>& rows, const Columns& from, RowMajor& to) {
   for (std::size_t k = 0; k < rows.size(); ++k) to.row(index(rows[k])) = from.row(index(k));
 }
 
@@ -14,19 +14,18 @@ ArrowInverse::ArrowInverse(const ArrowMatrix& m) : layout_(m.shared_layout()) {
   const ArrowRoot root(m, 0);
   const auto& head = layout_->head();
   const auto& eigen = root.head();
-  head_ = root.scale().asDiagonal() *
-          (eigen.eigenvectors() * eigen.eigenvalues().cwiseInverse().asDiagonal() *
-           eigen.eigenvectors().transpose()) *
-          root.scale().asDiagonal();
+  const Columns inverse =
+      product(eigen.vectors * eigen.values.cwiseInverse().asDiagonal(), eigen.vectors.transpose());
+  head_ = scaled(root.scale(), inverse, root.scale());
   u_ = RowMajor::Zero(index(layout_->size()), index(head.size()));
   for (std::size_t k = 0; k < head.size(); ++k) u_(index(head[k]), index(k)) = 1;
   for (std::size_t a = 0; a < root.arms().size(); ++a) {
     const auto& arm = root.arms()[a];
-    const Eigen::MatrixXd half = arm.scale.asDiagonal() * arm.eigenvectors * arm.root.asDiagonal();
-    inverses_.emplace_back(half * half.transpose());
-    put(layout_->arms()[a], -half * arm.w * root.scale().cwiseInverse().asDiagonal(), u_);
+    const Columns half = scaled(arm.scale, arm.eigenvectors, arm.root);
+    inverses_.push_back(times_transposed(half));
+    put(layout_->arms()[a], -product(half, arm.w) * root.scale().cwiseInverse().asDiagonal(), u_);
   }
-  uk_ = u_ * head_;
+  uk_ = product(u_, head_);
 }
 
 double ArrowInverse::operator()(std::size_t i, std::size_t j) const {
@@ -41,13 +40,13 @@ double ArrowInverse::along(std::size_t i, std::size_t head) const {
 }
 
 std::vector<double> ArrowInverse::times(std::span<const double> v) const {
-  const Eigen::Map<const Eigen::VectorXd> all(v.data(), index(v.size()));
-  Eigen::VectorXd x = uk_ * (u_.transpose() * all);
+  const Eigen::Map<const Vector> all(v.data(), index(v.size()));
+  Vector x = gonio::times(uk_, transposed_times(u_, all));
   for (std::size_t a = 0; a < inverses_.size(); ++a) {
     const auto& own = layout_->arms()[a];
-    Eigen::VectorXd part(index(own.size()));
+    Vector part(index(own.size()));
     for (std::size_t k = 0; k < own.size(); ++k) part[index(k)] = v[own[k]];
-    const Eigen::VectorXd solved = inverses_[a] * part;
+    const Vector solved = gonio::times(inverses_[a], part);
     for (std::size_t k = 0; k < own.size(); ++k) x[index(own[k])] += solved[index(k)];
   }
   return {x.begin(), x.end()};
@@ -58,20 +57,20 @@ ArrowInverse::Sandwich::Sandwich(const ArrowInverse& bread, const ArrowMatrix& m
   const ArrowLayout& layout = *bread.layout_;
   const Eigen::Index n = index(layout.size()), h = index(layout.head().size());
   q_ = RowMajor::Zero(n, h);
-  RowMajor inner = Eigen::Map<const RowMajor>(meat.head(), h, h);  // UᵀMU
+  Columns inner = Eigen::Map<const RowMajor>(meat.head(), h, h);  // UᵀMU
   for (std::size_t a = 0; a < layout.arms().size(); ++a) {
     const auto& own = layout.arms()[a];
     const Eigen::Index k = index(own.size());
-    Eigen::MatrixXd u(k, h);
+    Columns u(k, h);
     for (Eigen::Index r = 0; r < k; ++r)
       u.row(r) = bread.u_.row(index(own[static_cast<std::size_t>(r)]));
-    const Eigen::Map<const RowMajor> d(meat.own(a), k, k), b(meat.border(a), k, h);
-    const Eigen::MatrixXd mu = b + d * u;
-    inner += u.transpose() * mu + b.transpose() * u;
-    put(own, bread.inverses_[a] * mu, q_);
-    squares_.emplace_back(bread.inverses_[a] * d * bread.inverses_[a]);
+    const Columns d = Eigen::Map<const RowMajor>(meat.own(a), k, k),
+                  b = Eigen::Map<const RowMajor>(meat.border(a), k, h), mu = b + product(d, u);
+    inner += transposed_product(u, mu) + transposed_product(b, u);
+    put(own, product(bread.inverses_[a], mu), q_);
+    squares_.push_back(product(product(bread.inverses_[a], d), bread.inverses_[a]));
   }
-  outer_ = bread.u_ * Eigen::MatrixXd(bread.head_ * inner * bread.head_);
+  outer_ = product(bread.u_, product(product(bread.head_, inner), bread.head_));
 }
 
 double ArrowInverse::Sandwich::operator()(std::size_t i, std::size_t j) const {

@@ -34,15 +34,15 @@ class ArrowInverse {
 
    private:
     const ArrowInverse& bread_;
-    RowMajor q_, outer_;                    ///< by unknown: Q, U (K UᵀMU K)
-    std::vector<Eigen::MatrixXd> squares_;  ///< E M E of each arm
+    RowMajor q_, outer_;            ///< by unknown: Q, U (K UᵀMU K)
+    std::vector<Columns> squares_;  ///< E M E of each arm
   };
 
  private:
   std::shared_ptr<const ArrowLayout> layout_;
-  Eigen::MatrixXd head_;                   ///< K
-  RowMajor u_, uk_;                        ///< by unknown: U, U K
-  std::vector<Eigen::MatrixXd> inverses_;  ///< D_c⁻¹
+  Columns head_;                   ///< K
+  RowMajor u_, uk_;                ///< by unknown: U, U K
+  std::vector<Columns> inverses_;  ///< D_c⁻¹
 };
 
 }  // namespace gonio

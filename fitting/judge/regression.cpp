@@ -9,16 +9,11 @@
 #include "fitting/solve/matrix.h"
 #include "number/distributions.h"
 
-#include <Eigen/Eigenvalues>
-
 namespace gonio::misfit {
 namespace {
 
 constexpr double many = 50;  ///< samples for each function
 constexpr std::size_t most_gains = 128;
-
-using Matrix = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
 
 /// Unknowns of their own for the scale of each channel under each incident angle, where there is room.
 std::size_t add_gains(Left& left) {
@@ -33,17 +28,16 @@ std::size_t add_gains(Left& left) {
 
 /// Pseudoinverse of a positive semidefinite matrix, and its rank.
 struct Inverse {
-  Matrix inverse;
+  Columns inverse;
   std::size_t rank = 0;
-  explicit Inverse(const Matrix& a) : inverse(a) {
+  explicit Inverse(const Columns& a) : inverse(a) {
     if (a.size() == 0) return;  // nothing is free
     const Vector scale =
         a.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0; });
-    const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scale.asDiagonal() * a * scale.asDiagonal());
+    const auto eigen = eigenpairs(scaled(scale, a, scale));
     const Vector roots =
-        eigen.eigenvalues().unaryExpr([](double l) { return l > 1e-10 ? 1 / std::sqrt(l) : 0; });
-    const Matrix half = scale.asDiagonal() * eigen.eigenvectors() * roots.asDiagonal();
-    inverse = half * half.transpose();
+        eigen.values.unaryExpr([](double l) { return l > 1e-10 ? 1 / std::sqrt(l) : 0; });
+    inverse = times_transposed(scaled(scale, eigen.vectors, roots));
     rank = static_cast<std::size_t>((roots.array() > 0).count());
   }
 };
@@ -80,8 +74,8 @@ class Scores {
     for (std::size_t k = 0; k < counts_.size(); ++k) u += at(k);
     return u;
   }
-  Matrix squares() const {
-    Matrix m = Matrix::Zero(index(width_), index(width_));
+  Columns squares() const {
+    Columns m = Columns::Zero(index(width_), index(width_));
     for (std::size_t k = 0; k < counts_.size(); ++k)
       if (counts_[k] > 0) m.selfadjointView<Eigen::Lower>().rankUpdate(at(k), 1 / counts_[k]);
     return m.selfadjointView<Eigen::Lower>();
@@ -100,7 +94,7 @@ class Projected {
   Projected(const Left& left, std::size_t width, bool gains)
       : left_(left), width_(width), gains_(gains) {
     const auto n = index(left.count), q = index(width);
-    Matrix a = Matrix::Zero(n, n), c = Matrix::Zero(n, q);
+    Columns a = Columns::Zero(n, n), c = Columns::Zero(n, q);
     Vector g = Vector::Zero(n);
     for (const auto& v : left.values) {
       const auto& functions = left.units[v.unit].functions;
@@ -116,11 +110,11 @@ class Projected {
     Inverse solved(a);
     rank_ = solved.rank;
     inverse_ = std::move(solved.inverse);
-    functions_ = (inverse_ * c).transpose();
+    functions_ = product(inverse_, c).transpose();
     step_ = inverse_ * g;
   }
   std::size_t rank() const { return rank_; }
-  const Matrix& inverse() const { return inverse_; }
+  const Columns& inverse() const { return inverse_; }
   /// Residual that the unknowns take up.
   double taken_up(const Value& v) const {
     double sum = 0;
@@ -149,7 +143,7 @@ class Projected {
   const Left& left_;
   std::size_t width_, rank_ = 0;
   bool gains_;
-  Matrix inverse_, functions_;
+  Columns inverse_, functions_;
   Vector step_;
 };
 
@@ -198,7 +192,7 @@ void judge_cells(const Left& left,
     cell.with_score += score / count * moves.at(of);
     cell.scores += count;
   }
-  const Matrix move_squares = moves.squares();
+  const Columns move_squares = moves.squares();
   constexpr double few = 3, enough = 20;
   double tested = 0, least = 1, squares = 0, weights = 0;
   for (std::size_t k = 0; k < cells; ++k) {
@@ -303,8 +297,8 @@ Regression regress(Left left, Errors errors) {
   const auto q = index(width);
   Scores scores(shared ? left.angles : units, width);
   std::vector<double> r(left.values.size()), of_unit(units), z(width);
-  Matrix noise = Matrix::Zero(q, q);  // of the scores, if the variances are right
-  Vector length = Vector::Zero(q);    // of each function before its projection
+  Columns noise = Columns::Zero(q, q);  // of the scores, if the variances are right
+  Vector length = Vector::Zero(q);      // of each function before its projection
   double chi = 0, weight = 0;
   for (std::size_t i = 0; i < left.values.size(); ++i) {
     const auto& v = left.values[i];
@@ -322,7 +316,7 @@ Regression regress(Left left, Errors errors) {
     of_unit[v.unit] += r[i] / std::sqrt(v.variance);
     weight += v.active * whole;
   }
-  noise = Matrix(noise.selfadjointView<Eigen::Lower>());
+  noise = Columns(noise.selfadjointView<Eigen::Lower>());
   double common = 0;  // channels of a sample that share their errors count less
   for (const double x : of_unit) common += x * x;
   common = std::max(1.0, common / chi);
@@ -348,22 +342,20 @@ Regression regress(Left left, Errors errors) {
 
   // Functions of unit variance, the best visible ones first.
   const Vector scale = length.unaryExpr([](double l) { return l > 0 ? 1 / std::sqrt(l) : 0; });
-  const Eigen::SelfAdjointEigenSolver<Matrix> eigen(scale.asDiagonal() * noise *
-                                                    scale.asDiagonal());
+  const auto eigen = eigenpairs(scaled(scale, noise, scale));
   Eigen::Index kept = 0;
-  while (kept < q && static_cast<double>(kept + 1) <= most &&
-         eigen.eigenvalues()[q - 1 - kept] > 1e-6)
+  while (kept < q && static_cast<double>(kept + 1) <= most && eigen.values[q - 1 - kept] > 1e-6)
     ++kept;
   if (kept == 0) return out;
-  out.limited = kept < q && eigen.eigenvalues()[q - 1 - kept] > 1e-6;
-  const Matrix t = scale.asDiagonal() * eigen.eigenvectors().rightCols(kept) *
-                   eigen.eigenvalues().tail(kept).cwiseSqrt().cwiseInverse().asDiagonal();
-  const Vector sum = scores.sum(), u = t.transpose() * sum;
+  out.limited = kept < q && eigen.values[q - 1 - kept] > 1e-6;
+  const Columns t = scaled(scale, eigen.vectors.rightCols(kept),
+                           eigen.values.tail(kept).cwiseSqrt().cwiseInverse());
+  const Vector sum = scores.sum(), u = transposed_times(t, sum);
   const double of = static_cast<double>(kept);
-  const Matrix meat = t.transpose() * scores.squares() * t;
+  const Columns meat = product(transposed_product(t, scores.squares()), t);
   out.tested = true;
   if (shared || independent >= many * of) {
-    out.p = luck_of_scores(u.dot(Inverse(meat).inverse * u), of, independent);
+    out.p = luck_of_scores(u.dot(times(Inverse(meat).inverse, u)), of, independent);
     out.noise = meat.trace();
   } else {
     const double w = u.squaredNorm() / (variance * common);

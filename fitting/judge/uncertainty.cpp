@@ -35,16 +35,16 @@ std::vector<bool> in_singular_directions(const ArrowRoot& root,
              arm.eigenvectors.col(e).cwiseAbs().maxCoeff());
   }
   // A direction w of the head takes the arms along, −D_c⁻¹ B_c w of them.
-  for (Eigen::Index e = 0; e < root.head().eigenvalues().size(); ++e) {
-    const Eigen::VectorXd w = root.head().eigenvectors().col(e);
+  for (Eigen::Index e = 0; e < root.head().values.size(); ++e) {
+    const Eigen::VectorXd w = root.head().vectors.col(e);
     double squares = 1, largest = w.cwiseAbs().maxCoeff();
     std::vector<Eigen::VectorXd> along;
     for (const auto& arm : root.arms()) {
-      along.push_back(arm.eigenvectors * (arm.root.asDiagonal() * (arm.w * w)));
+      along.push_back(times(arm.eigenvectors, arm.root.cwiseProduct(times(arm.w, w))));
       squares += along.back().squaredNorm();
       largest = std::max(largest, along.back().cwiseAbs().maxCoeff());
     }
-    if (!(root.head().eigenvalues()[e] / squares < least)) continue;
+    if (!(root.head().values[e] / squares < least)) continue;
     mark(layout.head(), w, largest);
     for (std::size_t a = 0; a < along.size(); ++a) mark(layout.arms()[a], along[a], largest);
   }

@@ -22,11 +22,11 @@ namespace gonio {
 
 template <>
 inline constexpr auto description<TilesDocument> =
-    std::tuple{constant_text("schema", "gonio.map_tiles/1"),
-               Field{"tiles", &TilesDocument::tiles, "paths of the tiles that were asked for"},
-               Field{"kept", &TilesDocument::kept, "how many of them were there from before"},
-               Field{"columns", &TilesDocument::columns, "of all tiles of the map"},
-               Field{"rows", &TilesDocument::rows, "of all tiles of the map"}};
+    FieldList{constant_text("schema", "gonio.map_tiles/1"),
+              Field{"tiles", &TilesDocument::tiles, "paths of the tiles that were asked for"},
+              Field{"kept", &TilesDocument::kept, "how many of them were there from before"},
+              Field{"columns", &TilesDocument::columns, "of all tiles of the map"},
+              Field{"rows", &TilesDocument::rows, "of all tiles of the map"}};
 static_assert(describes_every_member<TilesDocument>());
 
 std::string to_json(const TilesDocument& d) {

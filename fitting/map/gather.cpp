@@ -21,7 +21,7 @@
 namespace gonio {
 
 template <>
-inline constexpr auto description<MapParameter> = std::tuple{
+inline constexpr auto description<MapParameter> = FieldList{
     Field{"name", &MapParameter::name, "of the channel in the file"},
     Group{"texels", "how many have which status", Field{"free", &MapParameter::free, "found"},
           Field{"fixed", &MapParameter::fixed, "held"},
@@ -30,7 +30,7 @@ inline constexpr auto description<MapParameter> = std::tuple{
     Field{"mean", &MapParameter::mean, "of the texels that have a value"},
     Field{"mean_std_error", &MapParameter::mean_std_error, "of the texels that have one"}};
 template <>
-inline constexpr auto description<MapDocument> = std::tuple{
+inline constexpr auto description<MapDocument> = FieldList{
     constant_text("schema", "gonio.map/1"),
     Field{"path", &MapDocument::path, "of the map"},
     Field{"model", &MapDocument::model, ""},

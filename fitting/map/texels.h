@@ -53,11 +53,11 @@ struct TexelOptions {
 };
 template <>
 inline constexpr auto description<TexelOptions> =
-    std::tuple_cat(model_fields<TexelOptions>,
-                   std::tuple{Field{"offset", "1/sr", &TexelOptions::offset,
-                                    "added to all values by log and relative", Numbers{0, 1e6}},
-                              Field{"refine_normals", &TexelOptions::refine_normals,
-                                    "fit the normals, too; of isotropic models"}});
+    joined(model_fields<TexelOptions>,
+           FieldList{Field{"offset", "1/sr", &TexelOptions::offset,
+                           "added to all values by log and relative", Numbers{0, 1e6}},
+                     Field{"refine_normals", &TexelOptions::refine_normals,
+                           "fit the normals, too; of isotropic models"}});
 /// Tiles of other options are told by these: none may be forgotten.
 static_assert(describes_every_member<TexelOptions>());
 

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "fitting/judge/uncertainty.h"
+#include "fitting/solve/matrix.h"
 #include "number/distributions.h"
 
 #include <Eigen/Cholesky>
@@ -77,7 +78,7 @@ Forecast::Forecast(FitSoFar f) : fit_(std::move(f)) {
 Eigen::MatrixXd Forecast::covariance(SampleList more) const {
   Eigen::MatrixXd a = fit_.information;
   a.diagonal().array() += of_range(fit_.range);
-  for (const auto* j : more) a.noalias() += j->transpose() * *j;
+  for (const auto* j : more) a += transposed_product(*j, *j);
   return a.llt().solve(Eigen::MatrixXd::Identity(a.rows(), a.cols()));
 }
 
@@ -87,7 +88,7 @@ Forecast::Sums Forecast::sums(SampleList more) const {
   Sums s{v.diagonal(), v.diagonal(), none, none, none, fit_.freedom};
   const auto add = [&](const SampleRows& j, bool is_new) {
     for (Index c = 0; c < j.rows(); ++c) {
-      const Eigen::VectorXd b = v * j.row(c).transpose();
+      const Eigen::VectorXd b = times(v, j.row(c).transpose());
       constexpr double all = 0.999;  // from which on a value alone knows something
       const double h = std::min(j.row(c).dot(b), all);
       const Eigen::ArrayXd squares = b.array().square(), leveraged = squares / (1 - h);
@@ -130,8 +131,8 @@ Eigen::VectorXd Forecast::told_widths(SampleList more) const {
 }
 
 Eigen::VectorXd Forecast::variances_after(const Eigen::MatrixXd& v, const SampleRows& j) {
-  const Eigen::MatrixXd jv = j * v;
-  Eigen::MatrixXd s = jv * j.transpose();
+  const Eigen::MatrixXd jv = product(j, v);
+  Eigen::MatrixXd s = product(jv, j.transpose());
   s.diagonal().array() += 1;
   const Eigen::MatrixXd lower = s.llt().matrixL().solve(jv);
   return v.diagonal() - lower.colwise().squaredNorm().transpose();

@@ -15,6 +15,7 @@
 #include "fitting/judge/warnings.h"
 #include "fitting/plan/candidates.h"
 #include "fitting/plan/forecast.h"
+#include "fitting/solve/matrix.h"
 #include "fitting/solve/problem.h"
 #include "integrate/aperture/mean_values.h"
 
@@ -32,10 +33,6 @@ constexpr double most_followed = 2048;    ///< values of a table that are follow
 constexpr double next_to_nothing = 0.01;  ///< of a range
 constexpr double least_between_deg = 2;   ///< directions of a plan, [°]
 constexpr double worth_it = 0.999;  ///< of a width: a direction that leaves more does not narrow it
-
-Index index(std::size_t i) {
-  return static_cast<Index>(i);
-}
 
 /// Table with some of its channels, evenly spread, where it has many.
 std::optional<Table> with_few_channels(const Table& t) {

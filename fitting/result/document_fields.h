@@ -12,25 +12,25 @@ namespace gonio {
 
 template <>
 inline constexpr auto description<FittedParameter> =
-    std::tuple{Field{"value", per_channel(&FittedParameter::value),
-                     "fitted value; null where the data cannot tell"},
-               Field{"std_error", per_channel(&FittedParameter::std_error),
-                     "standard error; null where it is not known"},
-               Field{"ci95", per_channel([](const FittedParameter& p) {
-                       std::vector<std::array<double, 2>> ends;
-                       for (std::size_t c = 0; c < p.ci95_low.size(); ++c)
-                         ends.push_back({p.ci95_low[c], p.ci95_high[c]});
-                       return ends;
-                     }),
-                     "ends of the 95 % confidence interval"},
-               Field{"status", per_channel(&FittedParameter::status), ""},
-               Field{"limit", per_channel(&FittedParameter::limit),
-                     "one-sided 95 % bound where the status is upper_limit or lower_limit"},
-               Field{"reason", per_channel(&FittedParameter::reason),
-                     "why no more is known, or what fixed its order; else empty"}};
+    FieldList{Field{"value", per_channel(&FittedParameter::value),
+                    "fitted value; null where the data cannot tell"},
+              Field{"std_error", per_channel(&FittedParameter::std_error),
+                    "standard error; null where it is not known"},
+              Field{"ci95", per_channel([](const FittedParameter& p) {
+                      std::vector<std::array<double, 2>> ends;
+                      for (std::size_t c = 0; c < p.ci95_low.size(); ++c)
+                        ends.push_back({p.ci95_low[c], p.ci95_high[c]});
+                      return ends;
+                    }),
+                    "ends of the 95 % confidence interval"},
+              Field{"status", per_channel(&FittedParameter::status), ""},
+              Field{"limit", per_channel(&FittedParameter::limit),
+                    "one-sided 95 % bound where the status is upper_limit or lower_limit"},
+              Field{"reason", per_channel(&FittedParameter::reason),
+                    "why no more is known, or what fixed its order; else empty"}};
 
 template <>
-inline constexpr auto description<ResidualBand> = std::tuple{
+inline constexpr auto description<ResidualBand> = FieldList{
     Field{"angle", &ResidualBand::angle, "theta_i, theta_h or theta_d"},
     Field{"from_deg", "°", &ResidualBand::from_deg, ""},
     Field{"to_deg", "°", &ResidualBand::to_deg, ""},
@@ -39,7 +39,7 @@ inline constexpr auto description<ResidualBand> = std::tuple{
     Field{"log_rms", &ResidualBand::log_rms, "RMS of ln f − ln y, where both are positive"}};
 
 template <>
-inline constexpr auto description<FitResiduals> = std::tuple{
+inline constexpr auto description<FitResiduals> = FieldList{
     Field{"rms", "1/sr", &FitResiduals::rms, "RMS of f − y"},
     Field{"log_rms", &FitResiduals::log_rms, "RMS of ln f − ln y, where both are positive"},
     Field{"bands", &FitResiduals::bands, "RMS by bands of angles"},
@@ -49,37 +49,37 @@ inline constexpr auto description<FitResiduals> = std::tuple{
 
 template <>
 inline constexpr auto description<FitSolver> =
-    std::tuple{Field{"termination", &FitSolver::termination, "converged or not_converged"},
-               Field{"message", &FitSolver::message, "why the search ended"},
-               Field{"iterations", &FitSolver::iterations, ""},
-               Field{"passes", &FitSolver::passes, "passes over the full data"},
-               Field{"cost_per_iteration", &FitSolver::cost_per_iteration, ""},
-               Field{"instruction_set", &FitSolver::instruction_set, ""},
-               Field{"time_ms", "ms",
-                     [](const FitSolver& s) {
-                       auto times = s.phase_ms;
-                       for (auto& [phase, ms] : times)
-                         if (!phase.ends_with("_ms")) phase += "_ms";
-                       return times;
-                     },
-                     "time of each phase"}};
+    FieldList{Field{"termination", &FitSolver::termination, "converged or not_converged"},
+              Field{"message", &FitSolver::message, "why the search ended"},
+              Field{"iterations", &FitSolver::iterations, ""},
+              Field{"passes", &FitSolver::passes, "passes over the full data"},
+              Field{"cost_per_iteration", &FitSolver::cost_per_iteration, ""},
+              Field{"instruction_set", &FitSolver::instruction_set, ""},
+              Field{"time_ms", "ms",
+                    [](const FitSolver& s) {
+                      auto times = s.phase_ms;
+                      for (auto& [phase, ms] : times)
+                        if (!phase.ends_with("_ms")) phase += "_ms";
+                      return times;
+                    },
+                    "time of each phase"}};
 
 template <>
 inline constexpr auto description<BinSensitivity> =
-    std::tuple{Field{"other", &BinSensitivity::other, "bin convention that was not used"},
-               Field{"relative_change", per_name(&BinSensitivity::relative_change),
-                     "change of each parameter under it"},
-               Field{"log_rms", &BinSensitivity::log_rms, "RMS of ln f − ln y under it"}};
+    FieldList{Field{"other", &BinSensitivity::other, "bin convention that was not used"},
+              Field{"relative_change", per_name(&BinSensitivity::relative_change),
+                    "change of each parameter under it"},
+              Field{"log_rms", &BinSensitivity::log_rms, "RMS of ln f − ln y under it"}};
 
 template <>
 inline constexpr auto description<CertificateCell> =
-    std::tuple{Field{"at", &CertificateCell::at, "values of the parameters"},
-               Field{"cost", &CertificateCell::cost, "least cost of a thinned table there"},
-               Field{"cost_all", &CertificateCell::cost_of_all,
-                     "that of all values, in the lowest cells; null elsewhere"}};
+    FieldList{Field{"at", &CertificateCell::at, "values of the parameters"},
+              Field{"cost", &CertificateCell::cost, "least cost of a thinned table there"},
+              Field{"cost_all", &CertificateCell::cost_of_all,
+                    "that of all values, in the lowest cells; null elsewhere"}};
 
 template <>
-inline constexpr auto description<Certificate> = std::tuple{
+inline constexpr auto description<Certificate> = FieldList{
     Field{"evidence", &Certificate::evidence, "searched: no proof; open where no width is free"},
     Field{"parameters", &Certificate::parameters, "axes of the search"},
     Field{"lowest", &Certificate::lowest, "least cost of all values among the cells"},
@@ -89,15 +89,15 @@ inline constexpr auto description<Certificate> = std::tuple{
 
 template <>
 inline constexpr auto description<MisfitCell> =
-    std::tuple{Field{"theta_h_from_deg", "°", &MisfitCell::theta_h_from_deg, ""},
-               Field{"theta_h_to_deg", "°", &MisfitCell::theta_h_to_deg, ""},
-               Field{"theta_d_from_deg", "°", &MisfitCell::theta_d_from_deg, ""},
-               Field{"theta_d_to_deg", "°", &MisfitCell::theta_d_to_deg, ""},
-               Field{"values", &MisfitCell::values, "number of values looked at"},
-               Field{"difference", &MisfitCell::difference, "mean of model over data, less 1"}};
+    FieldList{Field{"theta_h_from_deg", "°", &MisfitCell::theta_h_from_deg, ""},
+              Field{"theta_h_to_deg", "°", &MisfitCell::theta_h_to_deg, ""},
+              Field{"theta_d_from_deg", "°", &MisfitCell::theta_d_from_deg, ""},
+              Field{"theta_d_to_deg", "°", &MisfitCell::theta_d_to_deg, ""},
+              Field{"values", &MisfitCell::values, "number of values looked at"},
+              Field{"difference", &MisfitCell::difference, "mean of model over data, less 1"}};
 
 template <>
-inline constexpr auto description<Misfit> = std::tuple{
+inline constexpr auto description<Misfit> = FieldList{
     Field{"tested", &Misfit::tested, "whether the residuals could be tested"},
     Field{"p", &Misfit::p,
           "probability that the residuals follow the angles this closely by chance"},
@@ -109,7 +109,7 @@ inline constexpr auto description<Misfit> = std::tuple{
     Field{"too_few", &Misfit::too_few, "whether values or angles are too few to tell"}};
 
 template <>
-inline constexpr auto description<Physics> = std::tuple{
+inline constexpr auto description<Physics> = FieldList{
     Field{"theta_i_deg", "°", &Physics::theta_i_deg, "angles of incidence"},
     Field{"model_albedo", &Physics::model_albedo,
           "share of the light that the model returns, by angle and channel"},
@@ -119,7 +119,7 @@ inline constexpr auto description<Physics> = std::tuple{
           "greatest value of the model at the samples over the greatest of these, by channel"}};
 
 template <>
-inline constexpr auto description<FitDocument> = std::tuple{
+inline constexpr auto description<FitDocument> = FieldList{
     constant_text("schema", "gonio.fit/1"),
     Field{"model", &FitDocument::model, ""},
     Field{"channels", &FitDocument::channels, "channels of the table, in the order of arrays"},
@@ -157,7 +157,7 @@ inline constexpr auto description<FitDocument> = std::tuple{
 static_assert(describes_every_member<FitDocument>());
 
 template <>
-inline constexpr auto description<Comparison> = std::tuple{
+inline constexpr auto description<Comparison> = FieldList{
     Field{"path", &Comparison::path, "path of the table"},
     Field{"model", at(&Comparison::model, &FittedModel::model), ""},
     Field{"parameters", per_name(at(&Comparison::model, &FittedModel::parameters)), ""},

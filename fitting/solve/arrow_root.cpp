@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gonio {
 namespace {
@@ -29,63 +30,62 @@ ArrowRoot::ArrowRoot(const ArrowMatrix& m, double tiny) : layout_(m.shared_layou
   const Eigen::Index n = index(layout_->head().size());
   const Eigen::Map<const RowMajor> head(m.head(), n, n);
   scale_ = scale_of(head);
-  scaled_ = scale_.asDiagonal() * head * scale_.asDiagonal();
+  scaled_ = scaled(scale_, head, scale_);
   Columns complement = scaled_;
   for (std::size_t a = 0; a < layout_->arms().size(); ++a) {
     const Eigen::Index k = index(layout_->arms()[a].size());
     const Eigen::Map<const RowMajor> own(m.own(a), k, k), border(m.border(a), k, n);
     Arm arm;
     arm.scale = scale_of(own);
-    const Eigen::SelfAdjointEigenSolver<Columns> eigen(
-        Columns(arm.scale.asDiagonal() * own * arm.scale.asDiagonal()));
-    arm.eigenvalues = eigen.eigenvalues();
-    arm.eigenvectors = eigen.eigenvectors();
-    arm.border = arm.scale.asDiagonal() * border * scale_.asDiagonal();
+    auto [values, vectors] = eigenpairs(scaled(arm.scale, own, arm.scale));
+    arm.eigenvalues = std::move(values);
+    arm.eigenvectors = std::move(vectors);
+    arm.border = scaled(arm.scale, border, scale_);
     arm.root = arm.eigenvalues.unaryExpr([&](double x) { return x > tiny ? 1 / std::sqrt(x) : 0; });
-    arm.w = arm.root.asDiagonal() * (arm.eigenvectors.transpose() * arm.border);
-    complement.noalias() -= arm.w.transpose() * arm.w;
+    arm.w = arm.root.asDiagonal() * transposed_product(arm.eigenvectors, arm.border);
+    complement -= transposed_product(arm.w, arm.w);
     arms_.push_back(std::move(arm));
   }
-  head_.compute(complement);
+  head_ = eigenpairs(complement);
 }
 
 ArrowRoot::Rotated ArrowRoot::rotated(std::span<const double> g) const {
-  const auto scaled = [&](const std::vector<std::size_t>& unknowns, const Vector& scale) {
+  const auto in_scale = [&](const std::vector<std::size_t>& unknowns, const Vector& scale) {
     Vector v(index(unknowns.size()));
     for (std::size_t k = 0; k < unknowns.size(); ++k)
       v[index(k)] = scale[index(k)] * g[unknowns[k]];
     return v;
   };
   Rotated r;
-  Vector head = scaled(layout_->head(), scale_);
+  Vector head = in_scale(layout_->head(), scale_);
   for (std::size_t a = 0; a < arms_.size(); ++a) {
     const Arm& arm = arms_[a];
-    r.arms.push_back(arm.root.asDiagonal() *
-                     (arm.eigenvectors.transpose() * scaled(layout_->arms()[a], arm.scale)));
-    head.noalias() -= arm.w.transpose() * r.arms.back();
+    r.arms.push_back(arm.root.cwiseProduct(
+        transposed_times(arm.eigenvectors, in_scale(layout_->arms()[a], arm.scale))));
+    head -= transposed_times(arm.w, r.arms.back());
   }
-  r.head = head_.eigenvectors().transpose() * head;
+  r.head = transposed_times(head_.vectors, head);
   return r;
 }
 
 std::vector<double> ArrowRoot::solution(const Rotated& r) const {
   std::vector<double> x(layout_->size());
-  const Vector head = head_.eigenvectors() * r.head.cwiseQuotient(head_.eigenvalues());
-  const auto put = [&](const std::vector<std::size_t>& unknowns, const Vector& scaled) {
-    for (std::size_t k = 0; k < unknowns.size(); ++k) x[unknowns[k]] = scaled[index(k)];
+  const Vector head = times(head_.vectors, r.head.cwiseQuotient(head_.values));
+  const auto put = [&](const std::vector<std::size_t>& unknowns, const Vector& in_scale) {
+    for (std::size_t k = 0; k < unknowns.size(); ++k) x[unknowns[k]] = in_scale[index(k)];
   };
-  put(layout_->head(), scale_.asDiagonal() * head);
+  put(layout_->head(), scale_.cwiseProduct(head));
   for (std::size_t a = 0; a < arms_.size(); ++a) {
     const Arm& arm = arms_[a];
+    const Vector rest = r.arms[a] - times(arm.w, head);
     put(layout_->arms()[a],
-        arm.scale.asDiagonal() *
-            (arm.eigenvectors * (arm.root.asDiagonal() * (r.arms[a] - arm.w * head))));
+        arm.scale.cwiseProduct(times(arm.eigenvectors, arm.root.cwiseProduct(rest))));
   }
   return x;
 }
 
 std::size_t ArrowRoot::at_most(double t) const {
-  if (arms_.empty()) return static_cast<std::size_t>((head_.eigenvalues().array() <= t).count());
+  if (arms_.empty()) return static_cast<std::size_t>((head_.values.array() <= t).count());
   // Sylvester's law of inertia: as many as of each D_c − t and of the Schur complement of A − t.
   std::size_t count = 0;
   Columns complement = scaled_;
@@ -96,15 +96,14 @@ std::size_t ArrowRoot::at_most(double t) const {
       count += x <= 0;
       if (x == 0) x = -1e-300;
     }
-    const Columns w = arm.eigenvectors.transpose() * arm.border;
-    complement.noalias() -= w.transpose() * shifted.cwiseInverse().asDiagonal() * w;
+    const Columns w = transposed_product(arm.eigenvectors, arm.border);
+    complement -= transposed_product(w, shifted.cwiseInverse().asDiagonal() * w);
   }
-  const Eigen::SelfAdjointEigenSolver<Columns> eigen(complement, Eigen::EigenvaluesOnly);
-  return count + static_cast<std::size_t>((eigen.eigenvalues().array() <= 0).count());
+  return count + static_cast<std::size_t>((eigenvalues(complement).array() <= 0).count());
 }
 
 ArrowRoot::Extremes ArrowRoot::extremes() const {
-  const auto& all = head_.eigenvalues();
+  const auto& all = head_.values;
   if (arms_.empty()) return {all[0], all[all.size() - 1]};
   // Eigenvalues of a matrix with unit diagonal are 1 on average.
   const auto n = static_cast<double>(layout_->size());

@@ -9,8 +9,6 @@
 #include "fitting/solve/arrow.h"
 #include "fitting/solve/matrix.h"
 
-#include <Eigen/Eigenvalues>
-
 namespace gonio {
 
 /// A scaled to a unit diagonal, S A S with S = diag(A)^(−1/2), its arms taken out one by one and the
@@ -22,9 +20,6 @@ namespace gonio {
 /// Λ^(1/2) Vᵀ on the head.  Directions of an arm with an eigenvalue up to `tiny` are left out.
 class ArrowRoot {
  public:
-  using Vector = Eigen::VectorXd;
-  using Columns = Eigen::MatrixXd;
-
   ArrowRoot(const ArrowMatrix&, double tiny);
 
   struct Arm {
@@ -32,7 +27,7 @@ class ArrowRoot {
     Columns eigenvectors, border, w;  ///< V_c, B_c, W_c
   };
   const Vector& scale() const { return scale_; }  ///< of the head
-  const Eigen::SelfAdjointEigenSolver<Columns>& head() const { return head_; }
+  const Eigenpairs& head() const { return head_; }
   const std::vector<Arm>& arms() const { return arms_; }
 
   /// Gradient g in that form: parts of the arms and of the head with Jᵀ r = S g, where
@@ -57,7 +52,7 @@ class ArrowRoot {
   std::shared_ptr<const ArrowLayout> layout_;
   Vector scale_;
   Columns scaled_;  ///< H
-  Eigen::SelfAdjointEigenSolver<Columns> head_;
+  Eigenpairs head_;
   std::vector<Arm> arms_;
 };
 

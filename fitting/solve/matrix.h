@@ -1,6 +1,7 @@
 #pragma once
 /// \file
-/// Matrices as the sources that solve hold them.  Includes Eigen.
+/// Matrices as the sources that solve hold them, and what these ask of Eigen more than once: its templates for products and
+/// eigenvalues take seconds each to compile, and are compiled in matrix.cpp.  Includes Eigen.
 
 #include <cstddef>
 
@@ -9,9 +10,28 @@
 namespace gonio {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
+using Columns = Eigen::MatrixXd;
+using Vector = Eigen::VectorXd;
 
 inline Eigen::Index index(std::size_t n) {
   return static_cast<Eigen::Index>(n);
 }
+
+/// a b, aᵀ b and a aᵀ; a v and aᵀ v.
+Columns product(const Columns& a, const Columns& b);
+Columns transposed_product(const Columns& a, const Columns& b);
+Columns times_transposed(const Columns& a);
+Vector times(const Columns& a, const Vector& v);
+Vector transposed_times(const Columns& a, const Vector& v);
+/// diag(left) a diag(right)
+Columns scaled(const Vector& left, const Columns& a, const Vector& right);
+
+/// Eigenvalues of a symmetric matrix in ascending order, and its eigenvectors as columns.
+struct Eigenpairs {
+  Vector values;
+  Columns vectors;
+};
+Eigenpairs eigenpairs(const Columns& symmetric);
+Vector eigenvalues(const Columns& symmetric);
 
 }  // namespace gonio

@@ -31,10 +31,10 @@ inline constexpr std::array<std::string_view, 2> names_of<Certify>{"none", "auto
 
 template <>
 inline constexpr auto description<Setting> =
-    std::tuple{Field{"name", &Setting::name, ""},
-               Field{"values", per_channel(&Setting::values), "one, or one per channel"},
-               Field{"text", &Setting::text, "what was written, where it is no number"},
-               Field{"implied", &Setting::implied, "whether it follows from a preset"}};
+    FieldList{Field{"name", &Setting::name, ""},
+              Field{"values", per_channel(&Setting::values), "one, or one per channel"},
+              Field{"text", &Setting::text, "what was written, where it is no number"},
+              Field{"implied", &Setting::implied, "whether it follows from a preset"}};
 static_assert(describes_every_member<Setting>());
 template <>
 inline constexpr auto from_words<std::vector<Setting>> = &parse_settings;
@@ -56,7 +56,7 @@ struct FitOptions {
 
 /// Fields of what is fitted and how values are compared, which fits of tables and of texels share.
 template <class Options>
-inline constexpr auto model_fields = std::tuple{
+inline constexpr auto model_fields = FieldList{
     Field{"model", &Options::model, "model; all its parameters are fitted"},
     Field{"fix", &Options::fixed, "parameters held at a value: NAME=VALUE …", Entries{0, 64}},
     Field{"bounds", &Options::bounds, "where a parameter is looked for: NAME=LOW,HIGH …",
@@ -66,9 +66,9 @@ inline constexpr auto model_fields = std::tuple{
     Field{"metric", &Options::metric, "how values are compared"}};
 
 template <>
-inline constexpr auto description<FitOptions> = std::tuple_cat(
+inline constexpr auto description<FitOptions> = joined(
     model_fields<FitOptions>,
-    std::tuple{
+    FieldList{
         Field{"robust", &FitOptions::robust, "huber: outliers count less", Either{"none", "huber"}},
         Field{"intervals", &FitOptions::intervals,
               "whether the values of one incident angle share their errors: independent, by_angle, "

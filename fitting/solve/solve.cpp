@@ -38,7 +38,7 @@ std::optional<NewtonStep> next_step(const NormalEquations& e) {
   const ArrowRoot root(e.h, 0);
   if (root.at_most(least) > 0) return {};
   const auto g = root.rotated(e.g);
-  double decrease = g.head.cwiseQuotient(root.head().eigenvalues()).dot(g.head) / 2;
+  double decrease = g.head.cwiseQuotient(root.head().values).dot(g.head) / 2;
   for (const auto& arm : g.arms) decrease += arm.squaredNorm() / 2;
   auto by = root.solution(g);
   for (double& x : by) x = -x;
@@ -148,9 +148,7 @@ class Reduced : public ceres::EvaluationCallback {
     double squares = 0;
     auto& head = gradient_.head;
     for (Eigen::Index i = 0; i < head.size(); ++i)
-      head[i] = root_->head().eigenvalues()[i] > tiny()
-                    ? head[i] / std::sqrt(root_->head().eigenvalues()[i])
-                    : 0;
+      head[i] = root_->head().values[i] > tiny() ? head[i] / std::sqrt(root_->head().values[i]) : 0;
     squares = head.squaredNorm();
     for (const auto& arm : gradient_.arms) squares += arm.squaredNorm();
     constant_ = std::sqrt(std::max(0.0, 2 * scale_ * e.cost - squares));
@@ -188,9 +186,9 @@ class Reduced : public ceres::EvaluationCallback {
     Eigen::Map<RowMajor> j(jacobians[0], n + 1, n);
     j.setZero();
     for (Eigen::Index i = 0; i < n; ++i)
-      if (eigen.eigenvalues()[i] > tiny())
-        j.row(i) = std::sqrt(eigen.eigenvalues()[i]) *
-                   eigen.eigenvectors().col(i).cwiseQuotient(root_->scale()).transpose();
+      if (eigen.values[i] > tiny())
+        j.row(i) = std::sqrt(eigen.values[i]) *
+                   eigen.vectors.col(i).cwiseQuotient(root_->scale()).transpose();
     in_units(j, layout_->head());
   }
   void arm(std::size_t a, double* residuals, double** jacobians) const {

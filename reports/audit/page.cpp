@@ -25,13 +25,13 @@ std::optional<NamedOperations> operations_of_entry(const EntryAudit& e) {
 
 template <>
 inline constexpr auto description<Worst> =
-    std::tuple{Field{"value", &Worst::value, ""},
-               Field{"error", &Worst::error, "bound of the value's own; 0: of rounding"},
-               Field{"where", &Worst::where, ""}};
+    FieldList{Field{"value", &Worst::value, ""},
+              Field{"error", &Worst::error, "bound of the value's own; 0: of rounding"},
+              Field{"where", &Worst::where, ""}};
 static_assert(describes_every_member<Worst>());
 
 template <>
-inline constexpr auto description<Distance> = std::tuple{
+inline constexpr auto description<Distance> = FieldList{
     Field{"reference", &Distance::reference, "id"},
     Field{"measure", &Distance::measure, "what is compared"},
     Field{"max", at(&Distance::most, &Worst::value), ""},
@@ -39,9 +39,9 @@ inline constexpr auto description<Distance> = std::tuple{
 
 template <>
 inline constexpr auto description<EntryPicture> =
-    std::tuple{Field{"x", &EntryPicture::x, "label"}, Field{"y", &EntryPicture::y, "label"},
-               Field{"at", &EntryPicture::at, ""}, Field{"value", &EntryPicture::value, ""},
-               Field{"reference", &EntryPicture::reference, "empty: there is none"}};
+    FieldList{Field{"x", &EntryPicture::x, "label"}, Field{"y", &EntryPicture::y, "label"},
+              Field{"at", &EntryPicture::at, ""}, Field{"value", &EntryPicture::value, ""},
+              Field{"reference", &EntryPicture::reference, "empty: there is none"}};
 static_assert(describes_every_member<EntryPicture>());
 
 template <>
@@ -51,7 +51,7 @@ struct Description<EntryAudit> {
     constexpr auto about = [](auto member) {
       return [member](const E& e) { return std::string_view(e.about->*member); };
     };
-    return std::tuple{
+    return FieldList{
         field("id", "", about(&About::id), ""),
         field("kind", "", &E::kind, "ndf, masking, fresnel, diffuse, map, model"),
         field("title", "", about(&About::title), ""),
@@ -80,7 +80,7 @@ struct Description<EntryAudit> {
 
 template <>
 inline constexpr auto description<AuditDocument> =
-    std::tuple{Field{"entries", [](const AuditDocument& d) -> const auto& {return *d.entries;
+    FieldList{Field{"entries", [](const AuditDocument& d) -> const auto& {return *d.entries;
 }
 , ""
 }

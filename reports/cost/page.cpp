@@ -50,7 +50,7 @@ template <>
 struct Description<CostRow> {
   static constexpr auto measured() {
     using R = CostRow;
-    return std::tuple{
+    return FieldList{
         field("id", "", &R::id, "of a term or a whole model, else the model's spec"),
         field("number", "", &R::number, "float, double"),
         field("isa", "", &R::isa, "instruction set"),
@@ -82,33 +82,32 @@ struct Description<CostRow> {
   }
   template <std::size_t... K>
   static constexpr auto operations(std::index_sequence<K...>) {
-    return std::tuple{field(
+    return FieldList{field(
         operation_keys[K], "", [](const CostRow& r) { return r.operations.by_kind[K]; },
         "operations of one sample")...};
   }
   static constexpr auto fields() {
-    return std::tuple_cat(measured(),
-                          operations(std::make_index_sequence<operation_names.size()>()));
+    return joined(measured(), operations(std::make_index_sequence<operation_names.size()>()));
   }
 };
 
 template <>
-inline constexpr auto description<Machine::Cache> = std::tuple{
+inline constexpr auto description<Machine::Cache> = FieldList{
     Field{"level", &Machine::Cache::level, ""}, Field{"bytes", &Machine::Cache::bytes, ""},
     Field{"type", &Machine::Cache::type, "Data, Unified"}};
 template <>
 inline constexpr auto description<Machine> =
-    std::tuple{Field{"cpu", &Machine::cpu, "as it calls itself"},
-               Field{"threads", &Machine::threads, "that run at once"},
-               Field{"caches", &Machine::caches, "without those of instructions"},
-               Field{"instruction_sets", &Machine::instruction_sets, "that run here"},
-               Field{"compiler", &Machine::compiler, ""},
-               Field{"flags", &Machine::flags, ""},
-               Field{"native_half", &Machine::native_half, "arithmetic in half, AVX512-FP16"}};
+    FieldList{Field{"cpu", &Machine::cpu, "as it calls itself"},
+              Field{"threads", &Machine::threads, "that run at once"},
+              Field{"caches", &Machine::caches, "without those of instructions"},
+              Field{"instruction_sets", &Machine::instruction_sets, "that run here"},
+              Field{"compiler", &Machine::compiler, ""},
+              Field{"flags", &Machine::flags, ""},
+              Field{"native_half", &Machine::native_half, "arithmetic in half, AVX512-FP16"}};
 static_assert(describes_every_member<Machine>());
 
 template <>
-inline constexpr auto description<CostSetting> = std::tuple{
+inline constexpr auto description<CostSetting> = FieldList{
     Field{"full", [](const CostSetting& s) { return s.options->full; }, setting_meaning},
     Field{"machine", [](const CostSetting& s) -> const Machine& { return *s.machine; }, ""},
     Field{"repetitions", [](const CostSetting& s) { return s.options->timing.repetitions; },
@@ -122,7 +121,7 @@ inline constexpr auto description<CostSetting> = std::tuple{
           "of a column"}};
 
 template <>
-inline constexpr auto description<CostPoint> = std::tuple{
+inline constexpr auto description<CostPoint> = FieldList{
     Field{"picture", &CostPoint::picture, "compensation, split_sum, quadrature, fit"},
     Field{"series", &CostPoint::series, ""},
     Field{"label", &CostPoint::label, ""},
@@ -137,7 +136,7 @@ inline constexpr auto description<CostPoint> = std::tuple{
     Field{"without_ns_spread", "ns", at(&CostPoint::without, &Timing::spread_ns), spread_meaning}};
 
 template <>
-inline constexpr auto description<CostSwitch> = std::tuple{
+inline constexpr auto description<CostSwitch> = FieldList{
     Field{"question", &CostSwitch::question, ""},
     Field{"from", &CostSwitch::from, "id"},
     Field{"to", &CostSwitch::to, "id"},
@@ -157,7 +156,7 @@ inline constexpr auto description<CostSwitch> = std::tuple{
           "that a frame of 1920 × 1080 takes more, a sample each pixel, on one processor"}};
 
 template <>
-inline constexpr auto description<SamplingRow> = std::tuple{
+inline constexpr auto description<SamplingRow> = FieldList{
     Field{"id", &SamplingRow::id, ""},
     Field{"name", &SamplingRow::name, ""},
     Field{"roughness", &SamplingRow::roughness, ""},
@@ -169,7 +168,7 @@ inline constexpr auto description<SamplingRow> = std::tuple{
     Field{"to_percent_ms", "ms", [](const SamplingRow& r) { return 1e-3 * us_to_percent(r); },
           "until the error is 1 % of E"}};
 template <>
-inline constexpr auto description<LookupRow> = std::tuple{
+inline constexpr auto description<LookupRow> = FieldList{
     Field{"id", &LookupRow::id, ""},
     Field{"name", &LookupRow::name, ""},
     Field{"bytes", &LookupRow::bytes, "of the table"},
@@ -185,19 +184,19 @@ inline constexpr auto description<LookupRow> = std::tuple{
 
 template <>
 inline constexpr auto description<ShaderRow> =
-    std::tuple{Field{"id", &ShaderRow::id, "of a preset, or the spec"},
-               Field{"ops", [](const ShaderRow& r) { return r.operations.total(); },
-                     "of its graph, on a colour three"},
-               Field{"instructions",
-                     [](const ShaderRow& r) {
-                       return r.instructions.empty() ? std::nullopt : std::optional(r.instructions);
-                     },
-                     "of optimised SPIR-V by kind, on a colour one; null: no compiler was there"}};
+    FieldList{Field{"id", &ShaderRow::id, "of a preset, or the spec"},
+              Field{"ops", [](const ShaderRow& r) { return r.operations.total(); },
+                    "of its graph, on a colour three"},
+              Field{"instructions",
+                    [](const ShaderRow& r) {
+                      return r.instructions.empty() ? std::nullopt : std::optional(r.instructions);
+                    },
+                    "of optimised SPIR-V by kind, on a colour one; null: no compiler was there"}};
 
 template <>
 inline constexpr auto description<Timing> =
-    std::tuple{Field{"ns", "ns", &Timing::ns, "median"},
-               Field{"ns_spread", "ns", &Timing::spread_ns, spread_meaning}};
+    FieldList{Field{"ns", "ns", &Timing::ns, "median"},
+              Field{"ns_spread", "ns", &Timing::spread_ns, spread_meaning}};
 
 template <>
 struct Description<CostChange> {
@@ -206,7 +205,7 @@ struct Description<CostChange> {
     constexpr auto of_both = [](const C& c, auto value) {
       return c.before && c.now ? std::optional(value) : std::nullopt;
     };
-    return std::tuple{
+    return FieldList{
         field("id", "", at(&C::name, &CostName::id), ""),
         field("number", "", at(&C::name, &CostName::number), ""),
         field("isa", "", at(&C::name, &CostName::isa), ""),
@@ -226,8 +225,8 @@ struct Description<CostChange> {
 
 template <>
 inline constexpr auto description<BenchDocument> =
-    std::tuple{constant_text("schema", "gonio.bench/1"), inlined(&BenchDocument::setting),
-               Field{"rows", [](const BenchDocument& b) -> const auto& {return *b.rows;
+    FieldList{constant_text("schema", "gonio.bench/1"), inlined(&BenchDocument::setting),
+              Field{"rows", [](const BenchDocument& b) -> const auto& {return *b.rows;
 }
 , "a form in a place, each"
 }
@@ -238,7 +237,7 @@ inline constexpr auto description<BenchDocument> =
 ;
 
 template <>
-inline constexpr auto description<CostReport> = std::tuple{
+inline constexpr auto description<CostReport> = FieldList{
     constant_text("schema", "gonio.report.cost/1"), inlined([](const CostReport& r) {
       return CostSetting{&r.rows.options, &r.rows.machine, r.rows.processes, r.rows.others};
     }),

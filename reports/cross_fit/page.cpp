@@ -32,7 +32,7 @@ std::string_view words_of_layout(std::string_view name) {
 }  // namespace
 
 template <>
-inline constexpr auto description<CrossRow> = std::tuple{
+inline constexpr auto description<CrossRow> = FieldList{
     Field{"truth", [](const CrossRow& r) { return r.c->truth; }, "surface that is synthesized"},
     Field{"fitted", [](const CrossRow& r) { return r.c->fitted; },
           "form that is fitted to it, by id"},
@@ -62,13 +62,13 @@ inline constexpr auto description<CrossRow> = std::tuple{
     Field{"layout", [](const CrossRow& r) { return r.c->layout; }, "set of directions"}};
 
 template <>
-inline constexpr auto description<CrossSentence> = std::tuple{
+inline constexpr auto description<CrossSentence> = FieldList{
     Field{"truth", &CrossSentence::truth, ""}, Field{"fitted", &CrossSentence::fitted, ""},
     Field{"kind", &CrossSentence::kind, ""}, Field{"sentence", &CrossSentence::sentence, ""}};
 static_assert(describes_every_member<CrossSentence>());
 
 template <>
-inline constexpr auto description<PublishedFit> = std::tuple{
+inline constexpr auto description<PublishedFit> = FieldList{
     Field{"material", &PublishedFit::material, "of the MERL database"},
     Field{"width", &PublishedFit::width, "roughness of the highlight's core, as published"},
     Field{"tail", &PublishedFit::tail, "exponent of its tail, as published; of GGX it is 2"},
@@ -82,7 +82,7 @@ inline constexpr auto description<PublishedFit> = std::tuple{
 static_assert(describes_every_member<PublishedFit>());
 
 template <>
-inline constexpr auto description<CrossRange> = std::tuple{
+inline constexpr auto description<CrossRange> = FieldList{
     Field{"fitted", &CrossRange::fitted, "form, to GGX met once"},
     Field{"name", [](const CrossRange& r) { return name_of_form(r.fitted); }, "its name"},
     Field{"material", &CrossRange::material, ""},
@@ -97,7 +97,7 @@ inline constexpr auto description<CrossRange> = std::tuple{
     Field{"at_bound", &CrossRange::at_bound, "of them at a bound, or not determined"}};
 
 template <>
-inline constexpr auto description<WithoutRows> = std::tuple{
+inline constexpr auto description<WithoutRows> = FieldList{
     constant_text("schema", "gonio.report.cross_fit/1"),
     Field{"full", [](const WithoutRows& r) { return r.report->full; }, setting_meaning},
     Field{"findings", [](const WithoutRows& r) { return r.report->findings.sentences; },
@@ -117,8 +117,8 @@ inline constexpr auto description<WithoutRows> = std::tuple{
 
 template <>
 inline constexpr auto description<CrossFitReport> =
-    std::tuple{inlined([](const CrossFitReport& r) { return WithoutRows{&r}; }),
-               Field{"rows", rows_of, "one for each parameter of each fit"}};
+    FieldList{inlined([](const CrossFitReport& r) { return WithoutRows{&r}; }),
+              Field{"rows", rows_of, "one for each parameter of each fit"}};
 
 std::string to_json(const CrossFitReport& r) {
   return page_document(r);

@@ -6,17 +6,17 @@ namespace gonio {
 
 template <>
 inline constexpr auto description<DiffuseRow> =
-    std::tuple{Field{"form", &DiffuseRow::form, "id"},
-               Field{"roughness", &DiffuseRow::roughness, "as a renderer's slider sets it"},
-               Field{"mu", &DiffuseRow::mu, "cosine of the angle to the normal"},
-               Field{"albedo", &DiffuseRow::albedo,
-                     "directional, at kd = 1; of a coupled form what a lobe leaves"},
-               Field{"error", &DiffuseRow::error, "bound of the albedo's own"},
-               Field{"average", &DiffuseRow::average, "2 ∫ E μ dμ at this roughness"}};
+    FieldList{Field{"form", &DiffuseRow::form, "id"},
+              Field{"roughness", &DiffuseRow::roughness, "as a renderer's slider sets it"},
+              Field{"mu", &DiffuseRow::mu, "cosine of the angle to the normal"},
+              Field{"albedo", &DiffuseRow::albedo,
+                    "directional, at kd = 1; of a coupled form what a lobe leaves"},
+              Field{"error", &DiffuseRow::error, "bound of the albedo's own"},
+              Field{"average", &DiffuseRow::average, "2 ∫ E μ dμ at this roughness"}};
 static_assert(describes_every_member<DiffuseRow>());
 
 template <>
-inline constexpr auto description<DiffuseForm> = std::tuple{
+inline constexpr auto description<DiffuseForm> = FieldList{
     Field{"form", &DiffuseForm::id, "id"},
     Field{"name", &DiffuseForm::name, ""},
     Field{"parameter", &DiffuseForm::parameter, "its own, by the slider's roughness r"},
@@ -38,19 +38,19 @@ static_assert(describes_every_member<DiffuseForm>());
 
 template <>
 inline constexpr auto description<DiffuseColour> =
-    std::tuple{Field{"form", &DiffuseColour::form, "id"},
-               Field{"surface", &DiffuseColour::surface,
-                     "matte: against EON; plastic: against EON below a lobe"},
-               Field{"material", &DiffuseColour::material, "chalk, grey, terracotta"},
-               Field{"light", &DiffuseColour::light,
-                     "front, side, rim: of a ball; even: of a plane, by angle"},
-               Field{"roughness", &DiffuseColour::roughness, ""},
-               Field{"delta_e_2000", &DiffuseColour::delta_e, "most over the points lit"},
-               Field{"delta_e_2000_mean", &DiffuseColour::delta_e_mean, "over the points"}};
+    FieldList{Field{"form", &DiffuseColour::form, "id"},
+              Field{"surface", &DiffuseColour::surface,
+                    "matte: against EON; plastic: against EON below a lobe"},
+              Field{"material", &DiffuseColour::material, "chalk, grey, terracotta"},
+              Field{"light", &DiffuseColour::light,
+                    "front, side, rim: of a ball; even: of a plane, by angle"},
+              Field{"roughness", &DiffuseColour::roughness, ""},
+              Field{"delta_e_2000", &DiffuseColour::delta_e, "most over the points lit"},
+              Field{"delta_e_2000_mean", &DiffuseColour::delta_e_mean, "over the points"}};
 static_assert(describes_every_member<DiffuseColour>());
 
 template <>
-inline constexpr auto description<DiffuseReport> = std::tuple{
+inline constexpr auto description<DiffuseReport> = FieldList{
     constant_text("schema", "gonio.report.diffuse/1"),
     Field{"full", &DiffuseReport::full, setting_meaning},
     Field{"findings", at(&DiffuseReport::findings, &Findings::sentences), findings_meaning},

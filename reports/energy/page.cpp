@@ -62,7 +62,7 @@ constexpr std::string_view mu_meaning = "cosine of the angle to the normal, or \
 }  // namespace
 
 template <>
-inline constexpr auto description<EnergyRow> = std::tuple{
+inline constexpr auto description<EnergyRow> = FieldList{
     Field{"form", [](const EnergyRow& r) { return r.form->name; }, "name, unlike the others"},
     Field{"ndf", [](const EnergyRow& r) { return r.form->ndf; }, "id"},
     Field{"masking", [](const EnergyRow& r) { return r.form->masking; }, "id"},
@@ -77,7 +77,7 @@ inline constexpr auto description<EnergyRow> = std::tuple{
           "bound of its own"}};
 
 template <>
-inline constexpr auto description<EnergyForm> = std::tuple{
+inline constexpr auto description<EnergyForm> = FieldList{
     Field{"form", &EnergyForm::name, "name, unlike the others"},
     Field{"ndf", &EnergyForm::ndf, "id"},
     Field{"masking", &EnergyForm::masking, "id"},
@@ -91,7 +91,7 @@ template <>
 struct Description<NamedCrossing> {
   static constexpr auto fields() {
     using C = NamedCrossing;
-    return std::tuple{
+    return FieldList{
         field("form", "", if_there(&C::form), ""),
         field("material", "", if_there(&C::material), ""),
         field(
@@ -114,21 +114,21 @@ struct Description<NamedCrossing> {
 };
 
 template <>
-inline constexpr auto description<EnergyMaterial> = std::tuple{
+inline constexpr auto description<EnergyMaterial> = FieldList{
     Field{"material", &EnergyMaterial::name, ""}, Field{"fresnel", &EnergyMaterial::fresnel, "id"}};
 
 template <>
 inline constexpr auto description<TruthRow> =
-    std::tuple{Field{"material", [](const TruthRow& r) { return r.material->name; }, ""},
-               Field{"roughness", [](const TruthRow& r) { return r.at->roughness; }, ""},
-               Field{"mu", [](const TruthRow& r) { return mu_json(r.at->mu); }, mu_meaning},
-               Field{"albedo", [](const TruthRow& r) { return r.at->truth; }, "of all bounces"},
-               Field{"error", [](const TruthRow& r) { return r.at->error; }, "bound of its own"},
-               Field{"orders", [](const TruthRow& r) { return r.at->orders; },
-                     "albedo by the number of facets met"}};
+    FieldList{Field{"material", [](const TruthRow& r) { return r.material->name; }, ""},
+              Field{"roughness", [](const TruthRow& r) { return r.at->roughness; }, ""},
+              Field{"mu", [](const TruthRow& r) { return mu_json(r.at->mu); }, mu_meaning},
+              Field{"albedo", [](const TruthRow& r) { return r.at->truth; }, "of all bounces"},
+              Field{"error", [](const TruthRow& r) { return r.at->error; }, "bound of its own"},
+              Field{"orders", [](const TruthRow& r) { return r.at->orders; },
+                    "albedo by the number of facets met"}};
 
 template <>
-inline constexpr auto description<CompensationCost> = std::tuple{
+inline constexpr auto description<CompensationCost> = FieldList{
     Field{"scattering", &CompensationCost::id, "id"},
     Field{"operations", &CompensationCost::operations, "of its formula, tables aside"},
     Field{"lookups", &CompensationCost::lookups,
@@ -146,7 +146,7 @@ inline constexpr auto description<CompensationCost> = std::tuple{
 static_assert(describes_every_member<CompensationCost>());
 
 template <>
-inline constexpr auto description<SingleLight> = std::tuple{
+inline constexpr auto description<SingleLight> = FieldList{
     Field{"scattering", &SingleLight::id, "id"},
     Field{"light", &SingleLight::light, "30° or 120° from the view"},
     Field{"f0", &SingleLight::f0, "of Schlick's Fresnel"},
@@ -159,16 +159,16 @@ static_assert(describes_every_member<SingleLight>());
 
 template <>
 inline constexpr auto description<AlbedoForm> =
-    std::tuple{Field{"form", &AlbedoForm::id, "id"},
-               Field{"worst", &AlbedoForm::worst, "error against quadrature"},
-               Field{"rms", &AlbedoForm::rms, "error against quadrature"},
-               Field{"worst_at", &AlbedoForm::worst_at, ""},
-               Field{"operations", &AlbedoForm::operations, "of one value"},
-               Field{"bytes", &AlbedoForm::bytes, "of its table"}};
+    FieldList{Field{"form", &AlbedoForm::id, "id"},
+              Field{"worst", &AlbedoForm::worst, "error against quadrature"},
+              Field{"rms", &AlbedoForm::rms, "error against quadrature"},
+              Field{"worst_at", &AlbedoForm::worst_at, ""},
+              Field{"operations", &AlbedoForm::operations, "of one value"},
+              Field{"bytes", &AlbedoForm::bytes, "of its table"}};
 static_assert(describes_every_member<AlbedoForm>());
 
 template <>
-inline constexpr auto description<EstimatorPoint> = std::tuple{
+inline constexpr auto description<EstimatorPoint> = FieldList{
     Field{"estimator", &EstimatorPoint::estimator, ""},
     Field{"roughness", &EstimatorPoint::roughness, ""},
     Field{"mu", &EstimatorPoint::mu, "cosine of the angle to the normal"},
@@ -184,7 +184,7 @@ inline constexpr auto description<EstimatorPoint> = std::tuple{
     Field{"spread_ns", "ns", &EstimatorPoint::ns_spread, "half the distance of the quartiles"}};
 
 template <>
-inline constexpr auto description<TableError> = std::tuple{
+inline constexpr auto description<TableError> = FieldList{
     Field{"size", &TableError::size, "by size texels"},
     Field{"stored", &TableError::stored, "float, half"},
     Field{"bound", &TableError::bound, "of the quadrature in any texel"},
@@ -196,7 +196,7 @@ inline constexpr auto description<TableError> = std::tuple{
 static_assert(describes_every_member<TableError>());
 
 template <>
-inline constexpr auto description<TableSamples> = std::tuple{
+inline constexpr auto description<TableSamples> = FieldList{
     Field{"samples", &TableSamples::samples, ""}, Field{"a_max", &TableSamples::a, "error of A"},
     Field{"a_rms", &TableSamples::a_rms, "error of A"},
     Field{"b_max", &TableSamples::b, "error of B"},
@@ -204,7 +204,7 @@ inline constexpr auto description<TableSamples> = std::tuple{
 static_assert(describes_every_member<TableSamples>());
 
 template <>
-inline constexpr auto description<LitError> = std::tuple{
+inline constexpr auto description<LitError> = FieldList{
     Field{"environment", &LitError::environment, "a sky by formula, or the name of a file"},
     Field{"roughness", &LitError::roughness, ""},
     Field{"nov", &LitError::nov, ""},
@@ -222,14 +222,14 @@ inline constexpr auto description<LitError> = std::tuple{
 static_assert(describes_every_member<LitError>());
 
 template <>
-inline constexpr auto description<LightCost> = std::tuple{
+inline constexpr auto description<LightCost> = FieldList{
     Field{"way", &LightCost::way, "split sum, quadrature"},
     Field{"cost_ns", "ns", &LightCost::ns, "time of a pixel, median"},
     Field{"spread_ns", "ns", &LightCost::spread_ns, "half the distance of the quartiles"}};
 static_assert(describes_every_member<LightCost>());
 
 template <>
-inline constexpr auto description<IrradianceRow> = std::tuple{
+inline constexpr auto description<IrradianceRow> = FieldList{
     Field{"light", &IrradianceRow::light, ""},
     Field{"rule", &IrradianceRow::rule, ""},
     Field{"samples", &IrradianceRow::samples, ""},
@@ -248,7 +248,7 @@ struct Description<EnergyReport> {
     constexpr auto of_light = [](auto member) {
       return at(at(&R::rows, &EnergyRows::light), member);
     };
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.report.energy/1"),
         field("full", "", &R::full, setting_meaning),
         field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),

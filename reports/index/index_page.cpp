@@ -73,14 +73,14 @@ struct Visibility {
 
 template <>
 inline constexpr auto description<ReportIndex::Entry> =
-    std::tuple{Field{"name", &ReportIndex::Entry::name, ""},
-               Field{"what", &ReportIndex::Entry::what, ""},
-               Field{"sentence", sentence_of, "what a reader takes away"},
-               Field{"picture", picture_of, "the first, as in the report's document; null: none"},
-               Field{"pictures", &ReportIndex::Entry::pictures, "how many"},
-               Field{"time_ms", "ms", &ReportIndex::Entry::ms, "that it took"}};
+    FieldList{Field{"name", &ReportIndex::Entry::name, ""},
+              Field{"what", &ReportIndex::Entry::what, ""},
+              Field{"sentence", sentence_of, "what a reader takes away"},
+              Field{"picture", picture_of, "the first, as in the report's document; null: none"},
+              Field{"pictures", &ReportIndex::Entry::pictures, "how many"},
+              Field{"time_ms", "ms", &ReportIndex::Entry::ms, "that it took"}};
 template <>
-inline constexpr auto description<ClaimOf> = std::tuple{
+inline constexpr auto description<ClaimOf> = FieldList{
     Field{"report", &ClaimOf::report, ""},
     Field{"claim", [](const ClaimOf& c) { return c.claim->claim; }, "sentence in circulation"},
     Field{"source", [](const ClaimOf& c) { return c.claim->source; },
@@ -92,24 +92,24 @@ inline constexpr auto description<ClaimOf> = std::tuple{
     Field{"anchor", [](const ClaimOf& c) { return c.claim->anchor; }, "of the report's page"}};
 template <>
 inline constexpr auto description<Decision> =
-    std::tuple{Field{"for", &Decision::subject, "what is decided"},
-               Field{"take", &Decision::take, "name of the form"},
-               Field{"take_id", &Decision::take_id, "of the catalogue"},
-               Field{"error", &Decision::error, "that is left; in brackets an aside"},
-               Field{"cost", &Decision::cost, "over the cheap form; in brackets an aside"},
-               Field{"unless", &Decision::unless, "when another is to be taken, and which"}};
+    FieldList{Field{"for", &Decision::subject, "what is decided"},
+              Field{"take", &Decision::take, "name of the form"},
+              Field{"take_id", &Decision::take_id, "of the catalogue"},
+              Field{"error", &Decision::error, "that is left; in brackets an aside"},
+              Field{"cost", &Decision::cost, "over the cheap form; in brackets an aside"},
+              Field{"unless", &Decision::unless, "when another is to be taken, and which"}};
 template <>
 inline constexpr auto description<Facts::Setting> =
-    std::tuple{Field{"cpu", &Facts::Setting::cpu, "as it calls itself"},
-               Field{"threads", &Facts::Setting::threads, "that run at once"},
-               Field{"isa", &Facts::Setting::isa, "instruction set of the costs"},
-               Field{"others_busy", &Facts::Setting::others,
-                     "processors that other programs kept busy meanwhile; null: not known"},
-               Field{"model_ns", "ns", &Facts::Setting::model_ns,
-                     "time of a sample of GGX under correlated Smith and Schlick, beside "
-                     "which costs stand; null: not known"}};
+    FieldList{Field{"cpu", &Facts::Setting::cpu, "as it calls itself"},
+              Field{"threads", &Facts::Setting::threads, "that run at once"},
+              Field{"isa", &Facts::Setting::isa, "instruction set of the costs"},
+              Field{"others_busy", &Facts::Setting::others,
+                    "processors that other programs kept busy meanwhile; null: not known"},
+              Field{"model_ns", "ns", &Facts::Setting::model_ns,
+                    "time of a sample of GGX under correlated Smith and Schlick, beside "
+                    "which costs stand; null: not known"}};
 template <>
-inline constexpr auto description<Facts::Fresnel> = std::tuple{
+inline constexpr auto description<Facts::Fresnel> = FieldList{
     Field{"kind", &Facts::Fresnel::kind, "dielectric, metal"},
     Field{"material", &Facts::Fresnel::material, ""},
     Field{"form", [](const Facts::Fresnel& f) { return name_of_form(f.form); }, "its name"},
@@ -118,11 +118,11 @@ inline constexpr auto description<Facts::Fresnel> = std::tuple{
     Field{"head_on", &Facts::Fresnel::head_on, "the same seen head on"}};
 template <>
 inline constexpr auto description<Visibility> =
-    std::tuple{Field{"just_seen", &Visibility::just_seen, "CIEDE2000; below, nobody sees it"},
-               Field{"side_by_side", &Visibility::side_by_side,
-                     "CIEDE2000; below, a difference shows only side by side"}};
+    FieldList{Field{"just_seen", &Visibility::just_seen, "CIEDE2000; below, nobody sees it"},
+              Field{"side_by_side", &Visibility::side_by_side,
+                    "CIEDE2000; below, a difference shows only side by side"}};
 template <>
-inline constexpr auto description<ReportIndex> = std::tuple{
+inline constexpr auto description<ReportIndex> = FieldList{
     constant_text("schema", "gonio.report.index/1"),
     Field{"version", &ReportIndex::version, "of gonio"},
     Field{"full", &ReportIndex::full, setting_meaning},

@@ -13,7 +13,7 @@
 namespace gonio {
 
 template <>
-inline constexpr auto description<Cut> = std::tuple{
+inline constexpr auto description<Cut> = FieldList{
     Field{"at", &Cut::at, "angle that the curve is at: theta_i or theta_d"},
     Field{"at_deg", "°", &Cut::at_deg, ""},
     Field{"within_deg", "°", &Cut::within_deg, "data of `at` this far off are shown, too"},
@@ -24,17 +24,17 @@ inline constexpr auto description<Cut> = std::tuple{
 
 template <>
 inline constexpr auto description<ResidualMap> =
-    std::tuple{Field{"theta_h_deg", "°", &ResidualMap::theta_h_deg, "edges of the bins"},
-               Field{"theta_d_deg", "°", &ResidualMap::theta_d_deg, "edges of the bins"},
-               Field{"mean", &ResidualMap::mean, "mean of ln f_model − ln f_data, theta_d fastest"},
-               Field{"rms", &ResidualMap::rms, "its RMS"},
-               Field{"count", &ResidualMap::count, "number of values"},
-               Field{"measured", "1/sr", &ResidualMap::measured,
-                     "some of the values, evenly spread over the table"},
-               Field{"predicted", "1/sr", &ResidualMap::predicted, "the model there"}};
+    FieldList{Field{"theta_h_deg", "°", &ResidualMap::theta_h_deg, "edges of the bins"},
+              Field{"theta_d_deg", "°", &ResidualMap::theta_d_deg, "edges of the bins"},
+              Field{"mean", &ResidualMap::mean, "mean of ln f_model − ln f_data, theta_d fastest"},
+              Field{"rms", &ResidualMap::rms, "its RMS"},
+              Field{"count", &ResidualMap::count, "number of values"},
+              Field{"measured", "1/sr", &ResidualMap::measured,
+                    "some of the values, evenly spread over the table"},
+              Field{"predicted", "1/sr", &ResidualMap::predicted, "the model there"}};
 
 template <>
-inline constexpr auto description<ModelSphere> = std::tuple{
+inline constexpr auto description<ModelSphere> = FieldList{
     Field{"picture", &ModelSphere::picture, "PNG in base64"},
     Field{"difference", &ModelSphere::difference,
           "a byte a pixel in base64: 25 ΔE2000, 253 more, 254 not covered, 255 beside the "
@@ -48,7 +48,7 @@ inline constexpr auto description<ModelSphere> = std::tuple{
 static_assert(describes_every_member<ModelSphere>());
 
 template <>
-inline constexpr auto description<SpheresUnderLight> = std::tuple{
+inline constexpr auto description<SpheresUnderLight> = FieldList{
     Field{"light", &SpheresUnderLight::light, "front light, rim light or flash"},
     Field{"covered", &SpheresUnderLight::covered, "share of the lit pixels that the table covers"},
     Field{"exposure", "sr", &SpheresUnderLight::exposure,
@@ -59,10 +59,10 @@ static_assert(describes_every_member<SpheresUnderLight>());
 
 template <>
 inline constexpr auto description<Spheres> =
-    std::tuple{Field{"pixels", &Spheres::pixels, "width and height of the pictures"},
-               Field{"models", &Spheres::models, "specs of the models"},
-               Field{"channels", &Spheres::channels, "those shown: in their colours, or as a grey"},
-               Field{"lights", &Spheres::lights, "the spheres by light"}};
+    FieldList{Field{"pixels", &Spheres::pixels, "width and height of the pictures"},
+              Field{"models", &Spheres::models, "specs of the models"},
+              Field{"channels", &Spheres::channels, "those shown: in their colours, or as a grey"},
+              Field{"lights", &Spheres::lights, "the spheres by light"}};
 static_assert(describes_every_member<Spheres>());
 
 /// Document of a fit's page.
@@ -73,24 +73,24 @@ struct FitPageDocument {
 };
 template <>
 inline constexpr auto description<FitPageDocument> =
-    std::tuple{Field{"fit", &FitPageDocument::fit, "the fit document"},
-               Field{"health", &FitPageDocument::health, "the table's health"},
-               Field{"channels", at(&FitPageDocument::page, &FitPage::channels), ""},
-               Field{"curves", at(&FitPageDocument::page, &FitPage::curves), "data against model"},
-               Field{"residual_map", at(&FitPageDocument::page, &FitPage::residual_map),
-                     "where the model is off"},
-               Field{"spheres", at(&FitPageDocument::page, &FitPage::spheres),
-                     "the same sphere, table and fit"}};
+    FieldList{Field{"fit", &FitPageDocument::fit, "the fit document"},
+              Field{"health", &FitPageDocument::health, "the table's health"},
+              Field{"channels", at(&FitPageDocument::page, &FitPage::channels), ""},
+              Field{"curves", at(&FitPageDocument::page, &FitPage::curves), "data against model"},
+              Field{"residual_map", at(&FitPageDocument::page, &FitPage::residual_map),
+                    "where the model is off"},
+              Field{"spheres", at(&FitPageDocument::page, &FitPage::spheres),
+                    "the same sphere, table and fit"}};
 
 template <>
-inline constexpr auto description<SlicePicture> = std::tuple{
-    Field{"phi_d_deg", "°", &SlicePicture::phi_d_deg, "null: the mean over all"},
-    Field{"theta_h_deg", "°", &SlicePicture::theta_h_deg, "edges of the cells"},
-    Field{"theta_d_deg", "°", &SlicePicture::theta_d_deg, "edges of the cells"},
-    Field{"value", "1/sr", &SlicePicture::value, "by channel and cell, theta_d fastest"}};
+inline constexpr auto description<SlicePicture> =
+    FieldList{Field{"phi_d_deg", "°", &SlicePicture::phi_d_deg, "null: the mean over all"},
+              Field{"theta_h_deg", "°", &SlicePicture::theta_h_deg, "edges of the cells"},
+              Field{"theta_d_deg", "°", &SlicePicture::theta_d_deg, "edges of the cells"},
+              Field{"value", "1/sr", &SlicePicture::value, "by channel and cell, theta_d fastest"}};
 
 template <>
-inline constexpr auto description<TrustMap> = std::tuple{
+inline constexpr auto description<TrustMap> = FieldList{
     Field{"x", &TrustMap::x, "name of the angle"},
     Field{"y", &TrustMap::y, "name of the angle"},
     Field{"x_deg", "°", &TrustMap::x_deg, "edges of the cells"},
@@ -106,11 +106,11 @@ struct AlbedoPoint {
 };
 template <>
 inline constexpr auto description<AlbedoPoint> =
-    std::tuple{Field{"theta_i_deg", "°", at(&AlbedoPoint::of, &AlbedoSample::theta_i_deg),
-                     "angle of incidence"},
-               Field{"albedo", at(&AlbedoPoint::of, &AlbedoSample::albedo), "∫ f cos θ_o dω_o"},
-               Field{"coverage", at(&AlbedoPoint::of, &AlbedoSample::coverage),
-                     "share of the cosine-weighted hemisphere that valid samples speak for"}};
+    FieldList{Field{"theta_i_deg", "°", at(&AlbedoPoint::of, &AlbedoSample::theta_i_deg),
+                    "angle of incidence"},
+              Field{"albedo", at(&AlbedoPoint::of, &AlbedoSample::albedo), "∫ f cos θ_o dω_o"},
+              Field{"coverage", at(&AlbedoPoint::of, &AlbedoSample::coverage),
+                    "share of the cosine-weighted hemisphere that valid samples speak for"}};
 
 /// Document of a table's page.
 struct InspectPageDocument {
@@ -118,7 +118,7 @@ struct InspectPageDocument {
   InspectPage page;
 };
 template <>
-inline constexpr auto description<InspectPageDocument> = std::tuple{
+inline constexpr auto description<InspectPageDocument> = FieldList{
     Field{"health", &InspectPageDocument::health, "the table's health"},
     Field{"channels", at(&InspectPageDocument::page, &InspectPage::channels), ""},
     Field{"curves", at(&InspectPageDocument::page, &InspectPage::curves), ""},

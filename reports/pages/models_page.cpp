@@ -54,7 +54,7 @@ constexpr auto in_page(auto member) {
 }  // namespace
 
 template <>
-inline constexpr auto description<ModelsPageDocument> = std::tuple{
+inline constexpr auto description<ModelsPageDocument> = FieldList{
     Field{"choice", &ModelsPageDocument::choice, "the document of the choice, gonio.models/1"},
     Field{"names", in_page(&ModelsPage::names), "of each model, as people say them"},
     Field{"numbers", in_page(&ModelsPage::numbers),

@@ -18,8 +18,8 @@ Json figures_json(const Pictures&);
 Json maps_json(const Pictures&);
 template <>
 inline constexpr auto description<Pictures> =
-    std::tuple{Field{"figures", figures_json, "curves that the page draws"},
-               Field{"maps", maps_json, "maps that the page draws"}};
+    FieldList{Field{"figures", figures_json, "curves that the page draws"},
+              Field{"maps", maps_json, "maps that the page draws"}};
 
 /// Text of what is described.  Six digits: more than a page shows, a third of the bytes.
 template <class T>

@@ -11,7 +11,7 @@ struct Description<RemapRow> {
   static constexpr auto fields() {
     using R = RemapRow;
     using Nearest = NearestRoughness;
-    return std::tuple{
+    return FieldList{
         field("form", "", &R::form, "id of the masking term"),
         field("reference", "", &R::reference, "id of the exact one"),
         field("roughness", "", &R::roughness, ""),
@@ -41,42 +41,42 @@ struct Description<RemapRow> {
 
 template <>
 inline constexpr auto description<RemapForm> =
-    std::tuple{Field{"form", &RemapForm::form, "id"},
-               Field{"ndf", &RemapForm::ndf, "id of the distribution that it is for"},
-               Field{"formula", &RemapForm::formula, ""},
-               Field{"ships", &RemapForm::ships, "where"},
-               Field{"operations", &RemapForm::operations, "of one sample"},
-               Field{"roots", &RemapForm::roots, "square roots among them"},
-               Field{"reads_half", &RemapForm::reads_half,
-                     "reads VoH or NoH; its G2 is averaged over azimuths"}};
+    FieldList{Field{"form", &RemapForm::form, "id"},
+              Field{"ndf", &RemapForm::ndf, "id of the distribution that it is for"},
+              Field{"formula", &RemapForm::formula, ""},
+              Field{"ships", &RemapForm::ships, "where"},
+              Field{"operations", &RemapForm::operations, "of one sample"},
+              Field{"roots", &RemapForm::roots, "square roots among them"},
+              Field{"reads_half", &RemapForm::reads_half,
+                    "reads VoH or NoH; its G2 is averaged over azimuths"}};
 
 template <>
 inline constexpr auto description<RemapG1> =
-    std::tuple{Field{"k", &RemapG1::k, "of Schlick's G1"},
-               Field{"nov", &RemapG1::nov, ""},
-               Field{"claimed", &RemapG1::claimed, "G1 as the source says"},
-               Field{"value", &RemapG1::value, "G1 as the form gives it"},
-               Field{"roughness", &RemapG1::roughness, "that this k is meant for"},
-               Field{"smith", &RemapG1::smith, "exact G1 of that roughness"}};
+    FieldList{Field{"k", &RemapG1::k, "of Schlick's G1"},
+              Field{"nov", &RemapG1::nov, ""},
+              Field{"claimed", &RemapG1::claimed, "G1 as the source says"},
+              Field{"value", &RemapG1::value, "G1 as the form gives it"},
+              Field{"roughness", &RemapG1::roughness, "that this k is meant for"},
+              Field{"smith", &RemapG1::smith, "exact G1 of that roughness"}};
 static_assert(describes_every_member<RemapG1>());
 
 template <>
 inline constexpr auto description<RemapVf> =
-    std::tuple{Field{"form", &RemapVf::form, "id of what stands in place of V F"},
-               Field{"fresnel", &RemapVf::fresnel, "interface"},
-               Field{"over", &RemapVf::over, "all: directions evenly; mirror: h = n"},
-               Field{"roughness", &RemapVf::roughness, ""},
-               Field{"bias", &RemapVf::bias, "geometric mean of the ratio to exact V F"},
-               Field{"factor", &RemapVf::factor, "exp of the RMS of the ratio's logarithm"},
-               Field{"least", &RemapVf::least, "ratio"},
-               Field{"most", &RemapVf::most, "ratio"}};
+    FieldList{Field{"form", &RemapVf::form, "id of what stands in place of V F"},
+              Field{"fresnel", &RemapVf::fresnel, "interface"},
+              Field{"over", &RemapVf::over, "all: directions evenly; mirror: h = n"},
+              Field{"roughness", &RemapVf::roughness, ""},
+              Field{"bias", &RemapVf::bias, "geometric mean of the ratio to exact V F"},
+              Field{"factor", &RemapVf::factor, "exp of the RMS of the ratio's logarithm"},
+              Field{"least", &RemapVf::least, "ratio"},
+              Field{"most", &RemapVf::most, "ratio"}};
 static_assert(describes_every_member<RemapVf>());
 
 template <>
 struct Description<RemapReport> {
   static constexpr auto fields() {
     using R = RemapReport;
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.report.remap/1"),
         field("full", "", &R::full, setting_meaning),
         field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),

@@ -7,7 +7,7 @@ namespace gonio {
 constexpr std::string_view of_direction = "of f of one direction of light";
 
 template <>
-inline constexpr auto description<SceneRow> = std::tuple{
+inline constexpr auto description<SceneRow> = FieldList{
     Field{"material", &SceneRow::material, ""},
     Field{"light", &SceneRow::light, ""},
     Field{"speedup", &SceneRow::speedup, "time of everything on in double, over the plan's"},
@@ -36,7 +36,7 @@ inline constexpr auto description<SceneRow> = std::tuple{
 static_assert(describes_every_member<SceneRow>());
 
 template <>
-inline constexpr auto description<SceneEffectRow> = std::tuple{
+inline constexpr auto description<SceneEffectRow> = FieldList{
     Field{"material", &SceneEffectRow::material, ""},
     Field{"light", &SceneEffectRow::light, ""},
     Field{"effect", &SceneEffectRow::effect, ""},
@@ -55,40 +55,40 @@ static_assert(describes_every_member<SceneEffectRow>());
 
 template <>
 inline constexpr auto description<SceneFrontRow> =
-    std::tuple{Field{"material", &SceneFrontRow::material, ""},
-               Field{"light", &SceneFrontRow::light, ""},
-               Field{"kept", &SceneFrontRow::kept, "effects, in words"},
-               Field{"ns", &SceneFrontRow::ns, of_direction},
-               Field{"ns_spread", &SceneFrontRow::ns_spread, "half the distance of the quartiles"},
-               Field{"ops", &SceneFrontRow::ops, of_direction},
-               Field{"error_quantile", &SceneFrontRow::error_quantile, "of the differences"},
-               Field{"error_upper", &SceneFrontRow::error_upper, "its upper confidence bound"},
-               Field{"worst", &SceneFrontRow::worst, ""},
-               Field{"chosen", &SceneFrontRow::chosen, "it is the plan"}};
+    FieldList{Field{"material", &SceneFrontRow::material, ""},
+              Field{"light", &SceneFrontRow::light, ""},
+              Field{"kept", &SceneFrontRow::kept, "effects, in words"},
+              Field{"ns", &SceneFrontRow::ns, of_direction},
+              Field{"ns_spread", &SceneFrontRow::ns_spread, "half the distance of the quartiles"},
+              Field{"ops", &SceneFrontRow::ops, of_direction},
+              Field{"error_quantile", &SceneFrontRow::error_quantile, "of the differences"},
+              Field{"error_upper", &SceneFrontRow::error_upper, "its upper confidence bound"},
+              Field{"worst", &SceneFrontRow::worst, ""},
+              Field{"chosen", &SceneFrontRow::chosen, "it is the plan"}};
 static_assert(describes_every_member<SceneFrontRow>());
 
 template <>
 inline constexpr auto description<ScenePicture> =
-    std::tuple{Field{"material", &ScenePicture::material, ""},
-               Field{"light", &ScenePicture::light, ""},
-               Field{"pixels", &ScenePicture::pixels, "width and height"},
-               Field{"everything", &ScenePicture::everything,
-                     "with all effects, as a display shows it: a PNG in base64"},
-               Field{"planned", &ScenePicture::planned, "the same as planned"},
-               Field{"difference", &ScenePicture::difference,
-                     "50 times ΔE2000 of these, a byte of at most 254 a pixel in base64; "
-                     "255 beside the sphere"},
-               Field{"worst", &ScenePicture::worst, "greatest difference of a pixel"}};
+    FieldList{Field{"material", &ScenePicture::material, ""},
+              Field{"light", &ScenePicture::light, ""},
+              Field{"pixels", &ScenePicture::pixels, "width and height"},
+              Field{"everything", &ScenePicture::everything,
+                    "with all effects, as a display shows it: a PNG in base64"},
+              Field{"planned", &ScenePicture::planned, "the same as planned"},
+              Field{"difference", &ScenePicture::difference,
+                    "50 times ΔE2000 of these, a byte of at most 254 a pixel in base64; "
+                    "255 beside the sphere"},
+              Field{"worst", &ScenePicture::worst, "greatest difference of a pixel"}};
 static_assert(describes_every_member<ScenePicture>());
 
 template <>
 inline constexpr auto description<SceneLeftOut> =
-    std::tuple{Field{"material", &SceneLeftOut::material, "of the asset"},
-               Field{"why", &SceneLeftOut::why, "found and expected"}};
+    FieldList{Field{"material", &SceneLeftOut::material, "of the asset"},
+              Field{"why", &SceneLeftOut::why, "found and expected"}};
 static_assert(describes_every_member<SceneLeftOut>());
 
 template <>
-inline constexpr auto description<ScenesReport> = std::tuple{
+inline constexpr auto description<ScenesReport> = FieldList{
     constant_text("schema", "gonio.report.scenes/1"),
     Field{"full", &ScenesReport::full, setting_meaning},
     Field{"findings", at(&ScenesReport::findings, &Findings::sentences), findings_meaning},

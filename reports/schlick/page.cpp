@@ -7,7 +7,7 @@
 namespace gonio {
 
 template <>
-inline constexpr auto description<FresnelRow> = std::tuple{
+inline constexpr auto description<FresnelRow> = FieldList{
     Field{"form", &FresnelRow::form, "id of the form, and after a comma which variant of it"},
     Field{"kind", &FresnelRow::kind,
           "dielectric, dielectric_inside (light in the denser medium), metal, spectral (linear "
@@ -32,7 +32,7 @@ template <>
 struct Description<SchlickReport> {
   static constexpr auto fields() {
     using R = SchlickReport;
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.report.schlick/1"),
         field("full", "", &R::full, setting_meaning),
         field("findings", "", at(&R::findings, &Findings::sentences), findings_meaning),

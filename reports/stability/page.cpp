@@ -5,7 +5,7 @@
 namespace gonio {
 
 template <>
-inline constexpr auto description<StabilityRow> = std::tuple{
+inline constexpr auto description<StabilityRow> = FieldList{
     Field{"id", &StabilityRow::id, "of the catalogue"},
     Field{"form", &StabilityRow::form,
           "how its angles are given: cross, |n × h|²; cosine, only NoH; frame, facet (VoH), "
@@ -64,7 +64,7 @@ inline constexpr auto description<StabilityRow> = std::tuple{
 static_assert(describes_every_member<StabilityRow>());
 
 template <>
-inline constexpr auto description<ClampRow> = std::tuple{
+inline constexpr auto description<ClampRow> = FieldList{
     Field{"clamp", &ClampRow::clamp, "as shaders write it"},
     Field{"where", &ClampRow::where, "id of the form that it was measured in"},
     Field{"by", &ClampRow::by, "alpha, or cosine: the smaller of NoL and NoV"},
@@ -82,18 +82,18 @@ static_assert(describes_every_member<ClampRow>());
 
 template <>
 inline constexpr auto description<HighlightRow> =
-    std::tuple{Field{"id", &HighlightRow::id, "spec of the model"},
-               Field{"number", &HighlightRow::number, ""},
-               Field{"zenith_deg", "°", &HighlightRow::zenith_deg, "most of light and view"},
-               Field{"tolerance", &HighlightRow::tolerance, "relative"},
-               Field{"safe_from", &HighlightRow::safe_from,
-                     "alpha from which a search finds nothing that breaks it; null: nowhere"},
-               Field{"finite_from", &HighlightRow::finite_from,
-                     "alpha from which a search finds a value for every input; null: nowhere"}};
+    FieldList{Field{"id", &HighlightRow::id, "spec of the model"},
+              Field{"number", &HighlightRow::number, ""},
+              Field{"zenith_deg", "°", &HighlightRow::zenith_deg, "most of light and view"},
+              Field{"tolerance", &HighlightRow::tolerance, "relative"},
+              Field{"safe_from", &HighlightRow::safe_from,
+                    "alpha from which a search finds nothing that breaks it; null: nowhere"},
+              Field{"finite_from", &HighlightRow::finite_from,
+                    "alpha from which a search finds a value for every input; null: nowhere"}};
 static_assert(describes_every_member<HighlightRow>());
 
 template <>
-inline constexpr auto description<AnyGpuRow> = std::tuple{
+inline constexpr auto description<AnyGpuRow> = FieldList{
     Field{"id", &AnyGpuRow::id, "of the catalogue"},
     Field{"form", &AnyGpuRow::form, "how its angles are given"},
     Field{"number", &AnyGpuRow::number, "float or half"},
@@ -106,7 +106,7 @@ inline constexpr auto description<AnyGpuRow> = std::tuple{
 static_assert(describes_every_member<AnyGpuRow>());
 
 template <>
-inline constexpr auto description<OrderRow> = std::tuple{
+inline constexpr auto description<OrderRow> = FieldList{
     Field{"id", &OrderRow::id, "of the catalogue"},
     Field{"form", &OrderRow::form, "how its angles are given"},
     Field{"number", &OrderRow::number, "float or half"},
@@ -121,7 +121,7 @@ inline constexpr auto description<OrderRow> = std::tuple{
 static_assert(describes_every_member<OrderRow>());
 
 template <>
-inline constexpr auto description<StabilityReport> = std::tuple{
+inline constexpr auto description<StabilityReport> = FieldList{
     constant_text("schema", "gonio.report.stability/1"),
     Field{"full", &StabilityReport::full, setting_meaning},
     Field{"findings", at(&StabilityReport::findings, &Findings::sentences), findings_meaning},

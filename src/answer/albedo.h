@@ -44,7 +44,7 @@ struct AlbedoQuestion {
   std::optional<std::uint64_t> seed = {};
 };
 template <>
-inline constexpr auto description<AlbedoQuestion> = std::tuple{
+inline constexpr auto description<AlbedoQuestion> = FieldList{
     Field{"mu", &AlbedoQuestion::mu, "cosines of the zenith angle, in (0, 1]"},
     Field{"phi", "degrees", &AlbedoQuestion::phi_deg,
           "azimuth from the tangent, of anisotropic models"},

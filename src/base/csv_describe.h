@@ -20,19 +20,19 @@ std::string csv_cells(std::span<const RecordField>,
                       const void* record,
                       Digits digits = Digits::all);
 
-/// The same of fields that stand in a tuple of their own.
+/// The same of fields that stand in a list of their own.
 template <class... Fields>
-std::string csv_columns(const std::tuple<Fields...>& fields) {
+std::string csv_columns(const FieldList<Fields...>& fields) {
   std::string line;
-  std::apply([&](const auto&... f) { ((line += "," + csv_text(f.name)), ...); }, fields);
+  with_fields([&](const auto&... f) { ((line += "," + csv_text(f.name)), ...); }, fields);
   return line.substr(1);
 }
 template <class T, class... Fields>
-std::string csv_cells(const std::tuple<Fields...>& fields,
+std::string csv_cells(const FieldList<Fields...>& fields,
                       const T& of,
                       Digits digits = Digits::all) {
   std::string line;
-  std::apply(
+  with_fields(
       [&](const auto&... f) { ((line += "," + csv_cell(value_in(f.get, of), digits)), ...); },
       fields);
   return line.substr(1);

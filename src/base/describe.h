@@ -8,7 +8,7 @@
 ///     std::vector<double> of_channels;
 ///   };
 ///   template <>
-///   inline constexpr auto description<Width> = std::tuple{
+///   inline constexpr auto description<Width> = FieldList{
 ///       Field{"alpha", &Width::alpha, "width of the distribution"},
 ///       Field{"channels", per_channel(&Width::of_channels), "that of each channel"}};
 ///
@@ -22,18 +22,17 @@
 #include <cstddef>
 #include <limits>
 #include <string_view>
-#include <tuple>
 #include <type_traits>
 #include <utility>
 
 namespace gonio {
 
 struct NotDescribed {};
-/// Specialised for each struct that is shown or read: a tuple of field(), group(), by_key(), by_name() and constant_text(), in the
+/// Specialised for each struct that is shown or read: a FieldList of field(), group(), by_key(), by_name() and constant_text(), in the
 /// order in which they are shown.
 template <class T>
 inline constexpr NotDescribed description;
-/// The same for a struct of which more is to be said: `static constexpr auto fields()`, that tuple, and beside it
+/// The same for a struct of which more is to be said: `static constexpr auto fields()`, that list, and beside it
 ///
 ///   static void check(T&, Demand)               further demands on what was read; it may also put that in order
 ///   static constexpr bool has_others = true     keys that are not described, here or below, are passed over, not refused
@@ -44,7 +43,7 @@ template <class T>
 concept Described = !std::is_same_v<decltype(description<T>), const NotDescribed> || requires {
   Description<T>::fields();
 };
-/// The tuple, wherever it stands.
+/// The list, wherever it stands.
 template <Described T>
 constexpr auto described_fields() {
   if constexpr (requires { Description<T>::fields(); })
@@ -134,14 +133,50 @@ constexpr auto field(const Args&... args) {
   return Field(args...);
 }
 
+template <std::size_t i, class F>
+struct FieldAt {
+  F field;
+};
+template <class Indices, class... F>
+struct FieldsAt;
+template <std::size_t... i, class... F>
+struct FieldsAt<std::index_sequence<i...>, F...> : FieldAt<i, F>... {
+  constexpr FieldsAt(const F&... f) : FieldAt<i, F>{f}... {}
+};
+/// Fields in their order: a tuple that asks nothing of its types, for std::tuple's questions take most of a description's time in
+/// the compiler.
+template <class... F>
+struct FieldList : FieldsAt<std::index_sequence_for<F...>, F...> {
+  static constexpr std::size_t size = sizeof...(F);
+  constexpr FieldList(const F&... f) : FieldsAt<std::index_sequence_for<F...>, F...>(f...) {}
+};
+template <std::size_t i, class F>
+constexpr const F& field_of(const FieldAt<i, F>& at) {
+  return at.field;
+}
+template <class Take, std::size_t... i, class... F>
+constexpr auto with_fields(const Take& take, const FieldsAt<std::index_sequence<i...>, F...>& all) {
+  return take(field_of<i>(all)...);
+}
+/// The fields of one list, then those of another.
+template <class... A, class... B>
+constexpr FieldList<A..., B...> joined(const FieldList<A...>& a, const FieldList<B...>& b) {
+  return with_fields(
+      [&](const auto&... of_a) {
+        return with_fields(
+            [&](const auto&... of_b) { return FieldList<A..., B...>(of_a..., of_b...); }, b);
+      },
+      a);
+}
+
 /// Object of fields of the same struct.
 template <class... Fields>
 struct Group {
   std::string_view name, meaning;
-  std::tuple<Fields...> fields;
+  FieldList<Fields...> fields;
 
   constexpr Group(std::string_view name_, std::string_view meaning_, Fields... all)
-      : name(name_), meaning(meaning_), fields{all...} {}
+      : name(name_), meaning(meaning_), fields(all...) {}
 };
 template <class... Fields>
 constexpr Group<Fields...> group(std::string_view name,
@@ -335,14 +370,14 @@ constexpr std::size_t members_shown(const Alternatives<Get, n>&) {
 }
 template <class... Fields>
 constexpr std::size_t members_shown(const Group<Fields...>& g) {
-  return std::apply([](const auto&... f) { return (members_shown(f) + ... + 0); }, g.fields);
+  return with_fields([](const auto&... f) { return (members_shown(f) + ... + 0); }, g.fields);
 }
 /// True where each member of an aggregate has its field: for what must not be forgotten, in a static_assert beside the
 /// description.
 template <Described T>
 consteval bool describes_every_member() {
-  return std::apply([](const auto&... f) { return (members_shown(f) + ... + 0); },
-                    described_fields<T>()) == member_count<T>();
+  return with_fields([](const auto&... f) { return (members_shown(f) + ... + 0); },
+                     described_fields<T>()) == member_count<T>();
 }
 
 }  // namespace gonio

@@ -341,9 +341,9 @@ inline constexpr auto fields_of = described_fields<T>();
 template <class T, std::size_t i, std::size_t... within>
 constexpr const auto& field_at(const auto& fields) {
   if constexpr (sizeof...(within) == 0)
-    return std::get<i>(fields);
+    return field_of<i>(fields);
   else
-    return field_at<T, within...>(std::get<i>(fields).fields);
+    return field_at<T, within...>(field_of<i>(fields).fields);
 }
 template <class T, std::size_t... path>
 constexpr const auto& field_at() {
@@ -434,9 +434,9 @@ constexpr RecordField make_field(const Alternatives<Get, n>& a) {
 template <class T, std::size_t... path>
 constexpr auto make_fields(const auto& fields) {
   return [&]<std::size_t... i>(std::index_sequence<i...>) {
-    return std::array<RecordField, sizeof...(i)>{make_field<T, path..., i>(std::get<i>(fields))...};
+    return std::array<RecordField, sizeof...(i)>{make_field<T, path..., i>(field_of<i>(fields))...};
   }
-  (std::make_index_sequence<std::tuple_size_v<std::remove_cvref_t<decltype(fields)>>>());
+  (std::make_index_sequence<std::remove_cvref_t<decltype(fields)>::size>());
 }
 
 template <class T>

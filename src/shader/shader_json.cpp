@@ -8,9 +8,9 @@ template <>
 struct Description<shader::Argument> {
   static constexpr auto fields() {
     using A = shader::Argument;
-    return std::tuple{field("name", &A::name, "in the source"),
-                      field("colour", &A::colour, "one value a channel"),
-                      field("legal", legal, "ends of its range; null of an angle")};
+    return FieldList{field("name", &A::name, "in the source"),
+                     field("colour", &A::colour, "one value a channel"),
+                     field("legal", legal, "ends of its range; null of an angle")};
   }
   static std::optional<std::array<double, 2>> legal(const shader::Argument& a) {
     if (!a.about) return {};
@@ -24,7 +24,7 @@ struct Description<shader::ShaderDocument> {
     using D = shader::ShaderDocument;
     using F = shader::TracedFormula;
     using W = shader::Writing;
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.shader/1"),
         field("id", at(&D::formula, &F::id), "term or map of the catalogue, or a model's spec"),
         field("language", at(&D::writing, &W::language), "glsl, wgsl or slang"),

@@ -8,13 +8,13 @@ namespace gonio {
 
 template <>
 inline constexpr auto description<stability::NamedInput> =
-    std::tuple{Field{"inputs", &stability::NamedInput::inputs, "by name"},
-               Field{"inputs_hex", &stability::NamedInput::inputs_hex, "the number's bits"},
-               Field{"value", &stability::NamedInput::value, "null: no number, or infinite"},
-               Field{"exact", &stability::NamedInput::exact, "in fifty digits, rounded"}};
+    FieldList{Field{"inputs", &stability::NamedInput::inputs, "by name"},
+              Field{"inputs_hex", &stability::NamedInput::inputs_hex, "the number's bits"},
+              Field{"value", &stability::NamedInput::value, "null: no number, or infinite"},
+              Field{"exact", &stability::NamedInput::exact, "in fifty digits, rounded"}};
 
 template <>
-inline constexpr auto description<stability::Least> = std::tuple{
+inline constexpr auto description<stability::Least> = FieldList{
     Field{"requirement", &stability::Least::requirement, ""},
     Field{"flush", &stability::Least::flush, "results below the least normal number become 0"},
     Field{"value", &stability::Least::value,
@@ -28,7 +28,7 @@ struct Description<stability::Answer> {
   static constexpr auto fields() {
     using A = stability::Answer;
     using L = stability::Looked;
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.stability/1"),
         field("id", &A::id, "term of the catalogue, or a model's spec"),
         field("form", &A::form, "how the angles are given"),

@@ -18,19 +18,19 @@ struct SideKeys {
 template <Side side>
 struct Description<SideAngles<side>> {
   static constexpr auto fields() {
-    return std::tuple{field(SideKeys<side>::theta, "°", &SideAngles<side>::theta_deg,
-                            "angle of all texels from the normal", Numbers{0, 90, false, true}),
-                      field(SideKeys<side>::phi, "°", &SideAngles<side>::phi_deg,
-                            "azimuth from x towards y", Numbers{-360, 360}, or_default)};
+    return FieldList{field(SideKeys<side>::theta, "°", &SideAngles<side>::theta_deg,
+                           "angle of all texels from the normal", Numbers{0, 90, false, true}),
+                     field(SideKeys<side>::phi, "°", &SideAngles<side>::phi_deg,
+                           "azimuth from x towards y", Numbers{-360, 360}, or_default)};
   }
 };
 template <Side side>
 struct Description<SideVector<side>> {
   static constexpr auto fields() {
     constexpr double far = 1e9;
-    return std::tuple{field(SideKeys<side>::vector, &SideVector<side>::towards,
-                            "vector of all texels, of any length but 0, z above 0",
-                            Numbers{-far, far})};
+    return FieldList{field(SideKeys<side>::vector, &SideVector<side>::towards,
+                           "vector of all texels, of any length but 0, z above 0",
+                           Numbers{-far, far})};
   }
   static void check(SideVector<side>& v, Demand expect) {
     expect(v.towards.z > 0, SideKeys<side>::vector, "a direction above the surface: z above 0");
@@ -39,19 +39,19 @@ struct Description<SideVector<side>> {
 template <Side side>
 struct Description<SideMap<side>> {
   static constexpr auto fields() {
-    return std::tuple{field(SideKeys<side>::map, &SideMap<side>::path,
-                            "path of an image with a vector for each texel", not_empty)};
+    return FieldList{field(SideKeys<side>::map, &SideMap<side>::path,
+                           "path of an image with a vector for each texel", not_empty)};
   }
 };
 template <>
-inline constexpr auto description<StackImage> = std::tuple{
+inline constexpr auto description<StackImage> = FieldList{
     Field{"path", &StackImage::path,
           "of an OpenEXR file, an array of NumPy's or a PNG of 16 bits, linear", not_empty},
     by_key(&StackImage::light), by_key(&StackImage::view),
     Field{"scale", &StackImage::scale, "what its numbers are multiplied with",
           Numbers{0, 1e30, true}, or_default}};
 template <>
-inline constexpr auto description<StackTruth> = std::tuple{
+inline constexpr auto description<StackTruth> = FieldList{
     Field{"model", &StackTruth::model, "that was evaluated", not_empty},
     Field{"parameters", &StackTruth::parameters,
           "path of an image with a channel for each parameter", not_empty},
@@ -61,7 +61,7 @@ inline constexpr auto description<StackTruth> = std::tuple{
 template <>
 struct Description<Stack> {
   static constexpr auto fields() {
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.stack/1"),
         field("values", "1/sr", &Stack::values, "what the images hold", or_default),
         field("channels", if_there(&Stack::channels),

@@ -15,8 +15,8 @@ struct Line {
 template <>
 struct Description<Line> {
   static constexpr auto fields() {
-    return std::tuple{field("name", "", &Line::name, ""), field("x", "", &Line::x, ""),
-                      field("known", "", &Line::known, "")};
+    return FieldList{field("name", "", &Line::name, ""), field("x", "", &Line::x, ""),
+                     field("known", "", &Line::known, "")};
   }
 };
 

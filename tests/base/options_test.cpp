@@ -27,13 +27,13 @@ template <>
 inline constexpr std::array<std::string_view, 2> names_of<Pace>{"slow", "fast"};
 template <>
 inline constexpr auto description<Walk> =
-    std::tuple{Field{"pace", &Walk::pace, "how fast"},
-               Field{"back", &Walk::back, "whether back, too", Either{"there", "back"}},
-               Field{"carried", &Walk::carried, "by others"},
-               Field{"metres", "m", &Walk::metres, "how far", Numbers{0, 1e7}},
-               Field{"steps", &Walk::steps, "how many"},
-               Field{"places", &Walk::places, "where"},
-               Field{"kept", &Walk::kept, "a member that no call gives", not_asked}};
+    FieldList{Field{"pace", &Walk::pace, "how fast"},
+              Field{"back", &Walk::back, "whether back, too", Either{"there", "back"}},
+              Field{"carried", &Walk::carried, "by others"},
+              Field{"metres", "m", &Walk::metres, "how far", Numbers{0, 1e7}},
+              Field{"steps", &Walk::steps, "how many"},
+              Field{"places", &Walk::places, "where"},
+              Field{"kept", &Walk::kept, "a member that no call gives", not_asked}};
 
 namespace {
 

@@ -18,8 +18,8 @@ struct OwnFile {
 };
 template <>
 inline constexpr auto description<OwnFile> =
-    std::tuple{Field{"file", &OwnFile::file, "as the model names it"},
-               Field{"sha256", &OwnFile::sha256, "of the file's bytes"}};
+    FieldList{Field{"file", &OwnFile::file, "as the model names it"},
+              Field{"sha256", &OwnFile::sha256, "of the file's bytes"}};
 /// What documents call the list of them.
 inline constexpr std::string_view own_files_key = "shaders",
                                   own_files_meaning =

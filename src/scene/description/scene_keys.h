@@ -37,53 +37,53 @@ namespace gonio {
 // --- Materials ---
 
 template <>
-inline constexpr auto description<scene::FromSpec> = std::tuple{
+inline constexpr auto description<scene::FromSpec> = FieldList{
     Field{"model", &scene::FromSpec::model, "spec of a model, or a preset", not_empty},
     Field{"parameters", &scene::FromSpec::parameters,
           "a number or one per channel each; metal: a symbol such as Au; else their defaults",
           Entries{0, 100}, or_default}};
 template <>
 inline constexpr auto description<scene::FromFit> =
-    std::tuple{Field{"fit", &scene::FromFit::path, "path of a fit's document", not_empty}};
+    FieldList{Field{"fit", &scene::FromFit::path, "path of a fit's document", not_empty}};
 template <>
 inline constexpr auto description<scene::FromGltf> =
-    std::tuple{Field{"gltf", &scene::FromGltf::path, "path of a glTF 2.0 file", not_empty},
-               Field{"material", &scene::FromGltf::material,
-                     "name of its material: factors without textures", not_empty}};
+    FieldList{Field{"gltf", &scene::FromGltf::path, "path of a glTF 2.0 file", not_empty},
+              Field{"material", &scene::FromGltf::material,
+                    "name of its material: factors without textures", not_empty}};
 template <>
-inline constexpr auto description<scene::Material> = std::tuple{by_key(&scene::Material::from)};
+inline constexpr auto description<scene::Material> = FieldList{by_key(&scene::Material::from)};
 
 // --- Objects ---
 
 template <>
 inline constexpr auto description<scene::Sphere> =
-    std::tuple{Field{"center", "m", &scene::Sphere::center, "", scene::places, or_default},
-               Field{"radius", "m", &scene::Sphere::radius, "", scene::sizes, or_default}};
+    FieldList{Field{"center", "m", &scene::Sphere::center, "", scene::places, or_default},
+              Field{"radius", "m", &scene::Sphere::radius, "", scene::sizes, or_default}};
 template <>
-inline constexpr auto description<scene::MeshShape::Node> = std::tuple{Field{
+inline constexpr auto description<scene::MeshShape::Node> = FieldList{Field{
     "node", &scene::MeshShape::Node::name, "name of a node: its mesh where it stands", not_empty}};
 template <>
-inline constexpr auto description<scene::MeshShape::OfName> = std::tuple{Field{
+inline constexpr auto description<scene::MeshShape::OfName> = FieldList{Field{
     "mesh", &scene::MeshShape::OfName::name, "name of a mesh, in its own coordinates", not_empty}};
 template <>
 inline constexpr auto description<scene::MeshShape> =
-    std::tuple{Field{"gltf", &scene::MeshShape::path, "path of a glTF 2.0 file", not_empty},
-               by_key(&scene::MeshShape::part)};
+    FieldList{Field{"gltf", &scene::MeshShape::path, "path of a glTF 2.0 file", not_empty},
+              by_key(&scene::MeshShape::part)};
 template <>
 inline constexpr auto description<scene::NamedObject> =
-    std::tuple{Field{"material", &scene::NamedObject::material,
-                     "name of one of the scene's materials", not_empty},
-               by_name("shape", &scene::NamedObject::shape, "sphere", "mesh")};
+    FieldList{Field{"material", &scene::NamedObject::material,
+                    "name of one of the scene's materials", not_empty},
+              by_name("shape", &scene::NamedObject::shape, "sphere", "mesh")};
 
 // --- Lights ---
 
 template <>
 struct Description<scene::AngleRange> {
   static constexpr auto fields() {
-    return std::tuple{field("elevation_deg", "°", &scene::AngleRange::elevation_deg,
-                            "above the horizon", Numbers{-90, 90}),
-                      field("azimuth_deg", "°", &scene::AngleRange::azimuth_deg,
-                            "from +z towards +x", Numbers{-360, 360})};
+    return FieldList{field("elevation_deg", "°", &scene::AngleRange::elevation_deg,
+                           "above the horizon", Numbers{-90, 90}),
+                     field("azimuth_deg", "°", &scene::AngleRange::azimuth_deg,
+                           "from +z towards +x", Numbers{-360, 360})};
   }
   static void check(scene::AngleRange& a, Demand expect) {
     const auto [low, high] = a.azimuth_deg;
@@ -94,8 +94,8 @@ struct Description<scene::AngleRange> {
 template <>
 struct Description<scene::DirectionalLight::Fixed> {
   static constexpr auto fields() {
-    return std::tuple{field("direction", &scene::DirectionalLight::Fixed::direction,
-                            "towards the light, of any length but 0", scene::places)};
+    return FieldList{field("direction", &scene::DirectionalLight::Fixed::direction,
+                           "towards the light, of any length but 0", scene::places)};
   }
   static void check(scene::DirectionalLight::Fixed& l, Demand expect) {
     const Vector v{l.direction.x, l.direction.y, l.direction.z};
@@ -106,20 +106,20 @@ struct Description<scene::DirectionalLight::Fixed> {
 template <>
 struct Description<scene::DirectionalLight::Ranging> {
   static constexpr auto fields() {
-    return std::tuple{field("direction_range", &scene::DirectionalLight::Ranging::range,
-                            "directions towards the light")};
+    return FieldList{field("direction_range", &scene::DirectionalLight::Ranging::range,
+                           "directions towards the light")};
   }
 };
 template <>
 inline constexpr auto description<scene::DirectionalLight> =
-    std::tuple{by_key(&scene::DirectionalLight::from),
-               Field{"irradiance", &scene::DirectionalLight::irradiance,
-                     "of a surface that faces the light", scene::intensities}};
+    FieldList{by_key(&scene::DirectionalLight::from),
+              Field{"irradiance", &scene::DirectionalLight::irradiance,
+                    "of a surface that faces the light", scene::intensities}};
 template <>
 struct Description<scene::RectangleLight> {
   static constexpr auto fields() {
     using L = scene::RectangleLight;
-    return std::tuple{
+    return FieldList{
         field("center", "m", &L::center, "", scene::places),
         field("u", "m", &L::u, "from the centre to the middle of an edge", scene::places),
         field("v", "m", &L::v, "the same to the next edge; u × v points to where it shines",
@@ -133,7 +133,7 @@ struct Description<scene::RectangleLight> {
   }
 };
 template <>
-inline constexpr auto description<scene::EnvironmentLight> = std::tuple{
+inline constexpr auto description<scene::EnvironmentLight> = FieldList{
     Field{"path", &scene::EnvironmentLight::path,
           "OpenEXR file, a map over longitude and latitude, +y its top row, +z its middle",
           not_empty},
@@ -141,7 +141,7 @@ inline constexpr auto description<scene::EnvironmentLight> = std::tuple{
           or_default}};
 template <>
 inline constexpr auto description<scene::Light> =
-    std::tuple{by_name("type", itself, "directional", "rectangle", "environment")};
+    FieldList{by_name("type", itself, "directional", "rectangle", "environment")};
 
 // --- View, tolerance ---
 
@@ -149,7 +149,7 @@ template <>
 struct Description<scene::Camera> {
   static constexpr auto fields() {
     using C = scene::Camera;
-    return std::tuple{
+    return FieldList{
         field("position", "m", &C::position, "", scene::places),
         field("target", "m", &C::target, "", scene::places),
         field("up", &C::up, "direction that is up in the picture", scene::places, or_default),
@@ -165,18 +165,18 @@ struct Description<scene::Camera> {
 };
 template <>
 inline constexpr auto description<scene::Orbit> =
-    std::tuple{Group{"orbit", "cameras around a target, y up",
-                     Field{"target", "m", &scene::Orbit::target, "", scene::places},
-                     Field{"distance", "m", &scene::Orbit::distance, "", scene::sizes},
-                     inlined(&scene::Orbit::from)}};
+    FieldList{Group{"orbit", "cameras around a target, y up",
+                    Field{"target", "m", &scene::Orbit::target, "", scene::places},
+                    Field{"distance", "m", &scene::Orbit::distance, "", scene::sizes},
+                    inlined(&scene::Orbit::from)}};
 template <>
-inline constexpr auto description<scene::View> = std::tuple{by_key(itself)};
+inline constexpr auto description<scene::View> = FieldList{by_key(itself)};
 template <>
 struct Description<scene::Tolerance> {
   static constexpr auto fields() {
     using T = scene::Tolerance;
     constexpr Numbers amounts{0, scene::brightest};
-    return std::tuple{
+    return FieldList{
         field("metric", &T::metric, "difference of a sample from the reference"),
         field("limit", &T::limit, "kept by the upper confidence bound of the quantile", amounts),
         field("max", &T::max, "passed by no sample", amounts),
@@ -196,7 +196,7 @@ struct Description<scene::SceneFile> {
   }
   static constexpr auto fields() {
     using S = scene::Scene;
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "gonio.scene/1"),
         field("materials", by_name(of_scene(&S::materials)), "by their names", Entries{1, 1000}),
         field("objects", &scene::SceneFile::objects, "what is seen", Entries{1, 10'000}),

@@ -52,7 +52,7 @@ template <>
 inline constexpr const JsonForm* json_form<scene::Forms> = &forms_json;
 
 template <>
-inline constexpr auto description<scene::Budget> = std::tuple{
+inline constexpr auto description<scene::Budget> = FieldList{
     Field{"budget_ns", &scene::Budget::budget_ns, "mean time of a visible point", amounts},
     Field{"ns", &scene::Budget::ns, "of the plan", amounts},
     Field{"error", &scene::Budget::error, "upper bound of the worst material's quantile", amounts},
@@ -63,7 +63,7 @@ struct Description<scene::Candidate> {
   static constexpr auto fields() {
     using C = scene::Candidate;
     using scene::Judgement;
-    return std::tuple{
+    return FieldList{
         field("forms", &C::forms, "by effect"),
         field("ns", &C::ns, "of f of one direction of light", Numbers{}),
         field("ns_spread", &C::ns_spread, "half the distance of the quartiles", Numbers{}),
@@ -77,7 +77,7 @@ struct Description<scene::Candidate> {
 };
 
 template <>
-inline constexpr auto description<scene::PlannedEffect> = std::tuple{
+inline constexpr auto description<scene::PlannedEffect> = FieldList{
     Field{"effect", &scene::PlannedEffect::effect, ""},
     Field{"keep", &scene::PlannedEffect::keep, "false: its form is the cheapest"},
     Field{"form", &scene::PlannedEffect::form, "in which it is computed", not_empty},
@@ -100,7 +100,7 @@ struct Description<scene::MaterialPlan> {
   static constexpr auto fields() {
     using M = scene::MaterialPlan;
     using scene::Judgement;
-    return std::tuple{
+    return FieldList{
         field("effects", &M::effects, "each effect once",
               Entries{scene::effect_count, scene::effect_count}),
         field("spec", &M::spec,
@@ -149,15 +149,15 @@ struct Description<scene::MaterialPlan> {
 };
 
 template <>
-inline constexpr auto description<scene::Plan> = std::tuple{
-    constant_text("schema", plan_version),
-    Field{"holds", &scene::Plan::holds, "for every material"},
-    Field{"scene_sha256", &scene::Plan::scene_sha256, "of the scene and all that it names",
-          not_empty},
-    Field{"tolerance", &scene::Plan::tolerance, "that the plan was made for", or_default},
-    Field{"materials", by_name(&scene::Plan::materials), "by name", Entries{0, 10'000}},
-    Field{"budget", if_there(&scene::Plan::budget), "where the scene has one"},
-    Field{own_files_key, if_there(&scene::Plan::shaders), own_files_meaning}};
+inline constexpr auto description<scene::Plan> =
+    FieldList{constant_text("schema", plan_version),
+              Field{"holds", &scene::Plan::holds, "for every material"},
+              Field{"scene_sha256", &scene::Plan::scene_sha256,
+                    "of the scene and all that it names", not_empty},
+              Field{"tolerance", &scene::Plan::tolerance, "that the plan was made for", or_default},
+              Field{"materials", by_name(&scene::Plan::materials), "by name", Entries{0, 10'000}},
+              Field{"budget", if_there(&scene::Plan::budget), "where the scene has one"},
+              Field{own_files_key, if_there(&scene::Plan::shaders), own_files_meaning}};
 
 }  // namespace gonio
 

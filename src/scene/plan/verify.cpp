@@ -38,7 +38,7 @@ struct Description<VerifiedRow> {
   }
   static constexpr auto fields() {
     constexpr Numbers share{0, 1}, amount{0, Numbers::any};
-    return std::tuple{
+    return FieldList{
         field("holds", at(&VerifiedRow::material, &VerifiedMaterial::holds), "the tolerance"),
         field("reference", at(&VerifiedRow::material, &VerifiedMaterial::reference),
               "form of the light between facets that the plan is compared with"),
@@ -55,10 +55,10 @@ struct Description<VerifiedRow> {
   }
 };
 template <>
-inline constexpr auto description<Verification> = std::tuple{
-    constant_text("schema", "gonio.verification/1"),
-    Field{"holds", [](const Verification& v) { return v.holds(); }, "for every material"},
-    Field{"materials", rows_of, "by name"}};
+inline constexpr auto description<Verification> =
+    FieldList{constant_text("schema", "gonio.verification/1"),
+              Field{"holds", [](const Verification& v) { return v.holds(); }, "for every material"},
+              Field{"materials", rows_of, "by name"}};
 
 }  // namespace gonio
 

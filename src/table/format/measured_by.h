@@ -54,7 +54,7 @@ struct AsMeasured {
   std::vector<std::string> channel_names() const;
 };
 template <>
-inline constexpr auto description<AsMeasured> = std::tuple{
+inline constexpr auto description<AsMeasured> = FieldList{
     Field{"mask", &AsMeasured::mask, mask_in_words},
     Field{"aperture", &AsMeasured::aperture, aperture_in_words},
     Field{"reference", &AsMeasured::reference, reference_in_words},

@@ -23,8 +23,8 @@ struct StatedUncertainty {
 };
 template <>
 inline constexpr auto description<StatedUncertainty> =
-    std::tuple{Field{"relative", &StatedUncertainty::relative, "part of the value"},
-               Field{"floor", "1/sr", &StatedUncertainty::floor, ""}};
+    FieldList{Field{"relative", &StatedUncertainty::relative, "part of the value"},
+              Field{"floor", "1/sr", &StatedUncertainty::floor, ""}};
 
 /// Knowledge of a table beyond its format, as it stands in a file.
 struct SideFile {
@@ -51,7 +51,7 @@ auto unusual(const ColumnMap& map) {
 }
 
 template <>
-inline constexpr auto description<ColumnMap> = std::tuple{
+inline constexpr auto description<ColumnMap> = FieldList{
     keyed(role_pattern,
           &ColumnMap::columns,
           "column: its name, its number (#1 is the first), or a constant"),
@@ -67,34 +67,34 @@ inline constexpr auto description<ColumnMap> = std::tuple{
 
 template <>
 inline constexpr auto description<Truth> =
-    std::tuple{Field{"model", &Truth::model, ""},
-               Field{"parameters", per_name(&Truth::parameters), ""},
-               Field{"noise", &Truth::noise, "σ of the multiplicative noise exp(σ z)"},
-               Field{"floor", "1/sr", &Truth::floor, "added to every value"},
-               Field{"outliers", &Truth::outliers, "share of samples replaced"},
-               Field{"seed", &Truth::seed, ""}};
+    FieldList{Field{"model", &Truth::model, ""},
+              Field{"parameters", per_name(&Truth::parameters), ""},
+              Field{"noise", &Truth::noise, "σ of the multiplicative noise exp(σ z)"},
+              Field{"floor", "1/sr", &Truth::floor, "added to every value"},
+              Field{"outliers", &Truth::outliers, "share of samples replaced"},
+              Field{"seed", &Truth::seed, ""}};
 static_assert(describes_every_member<Truth>());
 
 template <>
 inline constexpr auto description<SideFile> =
-    std::tuple{constant_text("schema", side_file_id),
-               Field{"sha256", if_there([](const SideFile& f) {
-                       return f.sha256.empty() ? std::nullopt : std::optional(f.sha256);
-                     }),
-                     "of the table's file; in a side file that gonio wrote"},
-               Field{"bins", if_there(&SideFile::bins), "where a sample sits in its bin"},
-               Field{"values", if_there(&SideFile::values), "what the numbers of a UTIA file are"},
-               Field{"columns", if_there(&SideFile::columns), "how to read those of a CSV file"},
-               Field{"truth", if_there(&SideFile::truth), "what the table was made from"},
-               Field{"aperture", "°", if_there([](const SideFile& f) {
-                       return f.aperture_deg.empty() ? std::nullopt : std::optional(f.aperture_deg);
-                     }),
-                     "full widths of the cones of light and detector"},
-               Field{"uncertainty", if_there(&SideFile::uncertainty),
-                     "standard uncertainty of the values, where the table states none"},
-               Field{"notes", if_there([](const SideFile& f) {
-                       return f.notes.empty() ? std::nullopt : std::optional(f.notes);
-                     }),
-                     "texts by their names"}};
+    FieldList{constant_text("schema", side_file_id),
+              Field{"sha256", if_there([](const SideFile& f) {
+                      return f.sha256.empty() ? std::nullopt : std::optional(f.sha256);
+                    }),
+                    "of the table's file; in a side file that gonio wrote"},
+              Field{"bins", if_there(&SideFile::bins), "where a sample sits in its bin"},
+              Field{"values", if_there(&SideFile::values), "what the numbers of a UTIA file are"},
+              Field{"columns", if_there(&SideFile::columns), "how to read those of a CSV file"},
+              Field{"truth", if_there(&SideFile::truth), "what the table was made from"},
+              Field{"aperture", "°", if_there([](const SideFile& f) {
+                      return f.aperture_deg.empty() ? std::nullopt : std::optional(f.aperture_deg);
+                    }),
+                    "full widths of the cones of light and detector"},
+              Field{"uncertainty", if_there(&SideFile::uncertainty),
+                    "standard uncertainty of the values, where the table states none"},
+              Field{"notes", if_there([](const SideFile& f) {
+                      return f.notes.empty() ? std::nullopt : std::optional(f.notes);
+                    }),
+                    "texts by their names"}};
 
 }  // namespace gonio

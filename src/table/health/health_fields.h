@@ -37,22 +37,22 @@ std::vector<std::pair<std::string_view, Entry>> by_mask(
 
 template <>
 inline constexpr auto description<AlbedoSample> =
-    std::tuple{Field{"theta_i_deg", "°", &AlbedoSample::theta_i_deg, "angle of incidence"},
-               Field{"phi_i_deg", "°", &AlbedoSample::phi_i_deg, "its azimuth"},
-               Field{"albedo", per_channel(&AlbedoSample::albedo), "∫ f cos θ_o dω_o"},
-               Field{"coverage", &AlbedoSample::coverage,
-                     "share of the cosine-weighted hemisphere that valid samples speak for"},
-               Field{"error", &AlbedoSample::error,
-                     "bound of the integral's error, of what is between samples"}};
+    FieldList{Field{"theta_i_deg", "°", &AlbedoSample::theta_i_deg, "angle of incidence"},
+              Field{"phi_i_deg", "°", &AlbedoSample::phi_i_deg, "its azimuth"},
+              Field{"albedo", per_channel(&AlbedoSample::albedo), "∫ f cos θ_o dω_o"},
+              Field{"coverage", &AlbedoSample::coverage,
+                    "share of the cosine-weighted hemisphere that valid samples speak for"},
+              Field{"error", &AlbedoSample::error,
+                    "bound of the integral's error, of what is between samples"}};
 
 template <>
-inline constexpr auto description<Peak> = std::tuple{
+inline constexpr auto description<Peak> = FieldList{
     Field{"half_width_deg", "°", &Peak::half_width_deg, "angle at which the value has halved"},
     Field{"height", "1/sr", &Peak::height, ""},
     Field{"base", "1/sr", &Peak::base, "value beside the highlight"}};
 
 template <>
-inline constexpr auto description<Highlight> = std::tuple{
+inline constexpr auto description<Highlight> = FieldList{
     Field{"half_width_deg", "°", &Highlight::half_width_deg, "angle at which the value has halved"},
     Field{"alpha", &Highlight::alpha, "of the GGX lobe of that width"},
     Field{"samples_within", &Highlight::samples_within, "distinct angles within the half width"},
@@ -64,39 +64,39 @@ inline constexpr auto description<Highlight> = std::tuple{
 
 template <>
 inline constexpr auto description<NoiseBand> =
-    std::tuple{Field{"from", "1/sr", &NoiseBand::from, ""}, Field{"to", "1/sr", &NoiseBand::to, ""},
-               Field{"values", &NoiseBand::values, "number of values"},
-               Field{"sigma", &NoiseBand::sigma, "σ of ln f"}};
+    FieldList{Field{"from", "1/sr", &NoiseBand::from, ""}, Field{"to", "1/sr", &NoiseBand::to, ""},
+              Field{"values", &NoiseBand::values, "number of values"},
+              Field{"sigma", &NoiseBand::sigma, "σ of ln f"}};
 template <>
 inline constexpr auto description<ZenithBand> =
-    std::tuple{Field{"from_deg", "°", at(&ZenithBand::band, &NoiseBand::from), ""},
-               Field{"to_deg", "°", at(&ZenithBand::band, &NoiseBand::to), ""},
-               Field{"values", at(&ZenithBand::band, &NoiseBand::values), "number of values"},
-               Field{"sigma", at(&ZenithBand::band, &NoiseBand::sigma), "σ of ln f"}};
+    FieldList{Field{"from_deg", "°", at(&ZenithBand::band, &NoiseBand::from), ""},
+              Field{"to_deg", "°", at(&ZenithBand::band, &NoiseBand::to), ""},
+              Field{"values", at(&ZenithBand::band, &NoiseBand::values), "number of values"},
+              Field{"sigma", at(&ZenithBand::band, &NoiseBand::sigma), "σ of ln f"}};
 
 template <>
 inline constexpr auto description<Noise> =
-    std::tuple{Field{"sigma", &Noise::sigma, "σ of ln f; null where no line of samples shows it"},
-               Field{"bound", &Noise::bound, "whether σ is at most that"},
-               Field{"along", &Noise::along, "angle that varies along the lines, or repeats"},
-               Field{"channels", per_channel(&Noise::channels), "σ of each channel"},
-               Field{"over_zenith",
-                     [](const Noise& n) {
-                       std::vector<ZenithBand> bands;
-                       for (const auto& b : n.over_angle) bands.push_back({b});
-                       return bands;
-                     },
-                     "σ by the larger of the two zenith angles"},
-               Field{"over_value", &Noise::over_value, "σ by the value"}};
+    FieldList{Field{"sigma", &Noise::sigma, "σ of ln f; null where no line of samples shows it"},
+              Field{"bound", &Noise::bound, "whether σ is at most that"},
+              Field{"along", &Noise::along, "angle that varies along the lines, or repeats"},
+              Field{"channels", per_channel(&Noise::channels), "σ of each channel"},
+              Field{"over_zenith",
+                    [](const Noise& n) {
+                      std::vector<ZenithBand> bands;
+                      for (const auto& b : n.over_angle) bands.push_back({b});
+                      return bands;
+                    },
+                    "σ by the larger of the two zenith angles"},
+              Field{"over_value", &Noise::over_value, "σ by the value"}};
 
 template <>
 inline constexpr auto description<Prospect> =
-    std::tuple{Field{"of", &Prospect::of, "what the table may determine"},
-               Field{"verdict", &Prospect::verdict, ""},
-               Field{"because", &Prospect::because, "the figure that says so"}};
+    FieldList{Field{"of", &Prospect::of, "what the table may determine"},
+              Field{"verdict", &Prospect::verdict, ""},
+              Field{"because", &Prospect::because, "the figure that says so"}};
 
 template <>
-inline constexpr auto description<NextDirection> = std::tuple{
+inline constexpr auto description<NextDirection> = FieldList{
     Field{"theta_i", "°", &NextDirection::theta_i_deg, ""},
     Field{"phi_i", "°", &NextDirection::phi_i_deg, ""},
     Field{"theta_o", "°", &NextDirection::theta_o_deg, ""},
@@ -136,7 +136,7 @@ struct Description<TableHealth> {
   }
 
   static constexpr auto fields() {
-    return std::tuple{
+    return FieldList{
         field("path", table(&Table::path), ""),
         field("format", table(&Table::format), ""),
         field("layout", table(layout_text), ""),

@@ -44,31 +44,31 @@ struct Shown {
 template <>
 struct Description<Width> {
   static constexpr auto fields() {
-    return std::tuple{field("alpha", "", per_channel(&Width::alpha), "width"),
-                      field("colour", "", &Width::colour, "")};
+    return FieldList{field("alpha", "", per_channel(&Width::alpha), "width"),
+                     field("colour", "", &Width::colour, "")};
   }
 };
 template <>
 struct Description<More> {
-  static constexpr auto fields() { return std::tuple{field("steps", "", &More::steps, "")}; }
+  static constexpr auto fields() { return FieldList{field("steps", "", &More::steps, "")}; }
 };
 template <>
 struct Description<Shown> {
   static constexpr auto fields() {
-    return std::tuple{constant_text("schema", "gonio.test/1"),
-                      field("model", "", &Shown::model, "name"),
-                      field("rms", "1/sr", &Shown::rms, "of f"),
-                      field("values", "", &Shown::values, ""),
-                      field("robust", "", &Shown::robust, ""),
-                      field("widths", "", by_name(&Shown::widths), ""),
-                      inlined(&Shown::more),
-                      field("later", "", if_there(&Shown::later), ""),
-                      group("errors", "how well it is known", field("bound", "", &Shown::bound, ""),
-                            field("ci95", "", &Shown::ci95, "")),
-                      field("masked", "", &Shown::masked, ""),
-                      field("parameters", "", per_name(&Shown::parameters), ""),
-                      field(
-                          "twice", "", [](const Shown& s) { return 2 * s.values; }, "")};
+    return FieldList{constant_text("schema", "gonio.test/1"),
+                     field("model", "", &Shown::model, "name"),
+                     field("rms", "1/sr", &Shown::rms, "of f"),
+                     field("values", "", &Shown::values, ""),
+                     field("robust", "", &Shown::robust, ""),
+                     field("widths", "", by_name(&Shown::widths), ""),
+                     inlined(&Shown::more),
+                     field("later", "", if_there(&Shown::later), ""),
+                     group("errors", "how well it is known", field("bound", "", &Shown::bound, ""),
+                           field("ci95", "", &Shown::ci95, "")),
+                     field("masked", "", &Shown::masked, ""),
+                     field("parameters", "", per_name(&Shown::parameters), ""),
+                     field(
+                         "twice", "", [](const Shown& s) { return 2 * s.values; }, "")};
   }
 };
 
@@ -149,9 +149,9 @@ TEST(SchemaOf, AnOptionalMayBeNull) {
 }
 
 TEST(CsvCells, StandUnderTheirColumns) {
-  constexpr std::tuple fields{field("model", "", &Shown::model, ""),
-                              field("rms", "1/sr", &Shown::rms, ""),
-                              field("values", "", &Shown::values, "")};
+  constexpr FieldList fields{field("model", "", &Shown::model, ""),
+                             field("rms", "1/sr", &Shown::rms, ""),
+                             field("values", "", &Shown::values, "")};
   Shown s = example();
   EXPECT_EQ(csv_columns(fields), "model,rms,values");
   EXPECT_EQ(csv_cells(fields, s), "ggx,0.12345678,3");

@@ -44,19 +44,17 @@ inline constexpr std::array<std::string_view, 2> names_of<Unit>{"degrees", "radi
 template <>
 struct Description<Ball> {
   static constexpr auto fields() {
-    return std::tuple{field("radius", "", &Ball::radius, "of it", Numbers{0, 10, true})};
+    return FieldList{field("radius", "", &Ball::radius, "of it", Numbers{0, 10, true})};
   }
 };
 template <>
 struct Description<Box> {
-  static constexpr auto fields() {
-    return std::tuple{field("size", "", &Box::size, "", Numbers{})};
-  }
+  static constexpr auto fields() { return FieldList{field("size", "", &Box::size, "", Numbers{})}; }
 };
 template <>
 struct Description<Thing> {
   static constexpr auto fields() {
-    return std::tuple{
+    return FieldList{
         constant_text("schema", "thing/1"),
         field("name", "", &Thing::name, "", not_empty),
         field("unit", "", &Thing::unit, "", or_default),
@@ -282,9 +280,9 @@ template <>
 struct Description<Quiet> {
   static constexpr bool has_others = true;
   static constexpr auto fields() {
-    return std::tuple{field("upper", "", if_there(&Quiet::upper), "", Numbers{}),
-                      field("note", "", if_there(&Quiet::note), ""),
-                      field("list", "", if_there(&Quiet::list), "")};
+    return FieldList{field("upper", "", if_there(&Quiet::upper), "", Numbers{}),
+                     field("note", "", if_there(&Quiet::note), ""),
+                     field("list", "", if_there(&Quiet::list), "")};
   }
 };
 
