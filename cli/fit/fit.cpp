@@ -229,18 +229,7 @@ Exit run_models(const FitCall& o) {
   FitOptions options = o.how.options;
   if (options.scale == Scale::free) {
     scale_values(table, working_factor(table));
-    std::optional<Error> refused;  // models without such a weight are not compared
-    std::erase_if(models, [&](std::string& model) {
-      try {
-        options.model = model;
-        model = with_weights(options).model;
-        return false;
-      } catch (const Error& e) {
-        refused = e;
-        return true;
-      }
-    });
-    if (models.empty()) throw *refused;
+    models = with_weights(options, models);
     options.scale = Scale::held;
   }
   ModelChoice choice =

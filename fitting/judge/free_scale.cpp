@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
 #include "base/quantile.h"
@@ -72,6 +73,21 @@ FitOptions with_weights(FitOptions o) {
     throw refuse();
   }
   return options_for(std::move(o), weighted);
+}
+
+std::vector<std::string> with_weights(const FitOptions& o, std::span<const std::string> models) {
+  std::vector<std::string> all;
+  std::optional<Error> refused;
+  for (const auto& model : models) try {
+      FitOptions of = o;
+      of.model = model;
+      of = with_weights(std::move(of));
+      if (std::ranges::find(all, of.model) == all.end()) all.push_back(of.model);
+    } catch (const Error& e) {
+      refused = e;
+    }
+  if (all.empty() && refused) throw Error(*refused);
+  return all;
 }
 
 double working_factor(const Table& t) {

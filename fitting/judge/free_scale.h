@@ -6,6 +6,7 @@
 /// weight, the table is brought to a scale at which weights and kd lie within their ranges, and what is fitted of them stands only
 /// relative to each other.
 
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,8 @@ namespace gonio {
 /// The model with a weight for each lobe, as schlick.weighted.  Throws wrong usage where a factor on all values is none on the
 /// model's kd and weights, and where one of these is held.
 FitOptions with_weights(FitOptions);
+/// Those of several models that can have weights, each once.  Throws wrong usage where none can.
+std::vector<std::string> with_weights(const FitOptions&, std::span<const std::string> models);
 
 /// What values are multiplied by so that a fit's kd and weights lie within their ranges.
 double working_factor(const Table&);

@@ -65,6 +65,21 @@ TEST(Fit, RemembersTheConesForACompare) {
   EXPECT_LT(rms("fit.json"), 0.1 * rms("fit.json --aperture 0.1,0"));
 }
 
+TEST(Fit, ComparesModelsOfCountsByTheirWeights) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout in_plane --noise 0.02 -o t.csv").code, 0);
+  ASSERT_EQ(gonio(f, "columns t.csv --scale 54321").code, 0);
+  const std::string lobe = "ggx/smith_ggx.correlated/schlick";
+  const auto d =
+      gonio(f, "fit t.csv --scale free --models lambert,eon,lambert+" + lobe + " --json").json();
+  ASSERT_EQ(d["models"].size(), 2U) << "eon has no weight";
+  EXPECT_EQ(d["recommended"], "lambert+" + lobe + ".weighted");
+  EXPECT_NE(d["warnings"].dump().find("the scale is free"), std::string::npos);
+  expect_one_line(gonio(f, "fit t.csv --scale free --models eon"), 2, "scale free");
+  expect_one_line(gonio(f, "fit t.csv --scale free --fix kd=0.3"), 2, "kd given");
+}
+
 TEST(Fit, SaysInTwoLinesWhatToTryNext) {
   const Folder f;
   // Several models mend this about as well.

@@ -220,7 +220,7 @@ class Sample {
       slices->from = std::max(std::cos(theta + own), 0.0);
       slices->to = std::cos(std::max(theta - own, 0.0));
       const double spread = (slices->to - slices->from) / std::max(cone->cos(), 1e-3);
-      constexpr double little = 0.09, of_one = 0.4;
+      constexpr double little = 0.17, of_one = 0.4;
       slices->count = spread < little
                           ? 1
                           : std::min(most_slices, 2 + static_cast<std::size_t>(spread / of_one));
