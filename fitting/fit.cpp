@@ -15,6 +15,7 @@
 #include "fitting/judge/bootstrap.h"
 #include "fitting/judge/certificate.h"
 #include "fitting/judge/describe.h"
+#include "fitting/judge/free_scale.h"
 #include "fitting/judge/lack_of_fit.h"
 #include "fitting/judge/next_steps.h"
 #include "fitting/judge/physics.h"
@@ -26,6 +27,7 @@
 #include "fitting/solve/order.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
+#include "table/format/measured_by.h"
 #include "table/health/value_warnings.h"
 
 #include <tbb/task_group.h>
@@ -64,6 +66,7 @@ bool take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColu
   const bool holds_lobe = o.fixed.size() < fixed;
   o.bin_sensitivity = false;
   o.certificate = Certify::none;
+  o.scale = Scale::held;  // the table is at its working scale
   FitDocument alone = fit(t, o, columns).document;
   for (auto& p : alone.parameters) {
     for (auto& reason : p.reason)
@@ -207,6 +210,8 @@ FitResult fit_and_judge(const Table& t,
   d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");
   const bool without_lobes = needless && take_diffuse_alone(d, t, o, columns);
+  if (t.aperture)
+    d.aperture_deg = std::vector{t.aperture.light / degree, t.aperture.detector / degree};
   d.values_used = a.counts.used;
   d.masked = a.counts.by_reason(sampling);
   d.input_path = t.path;
@@ -225,6 +230,7 @@ FitResult fit_and_judge(const Table& t,
     if (!(d.misfit.reproduces() && is_answered_by_a_fit(w))) d.warnings.push_back(w);
   FitFacts facts{judged.angles, p.free.size(), found.cost_of_fewer, needless};
   for (auto& w : value_warnings(table)) {
+    if (w.of_scale && o.scale == Scale::free) continue;
     facts.no_f = facts.no_f || w.of_unit;
     d.warnings.push_back(std::move(w.text));
   }
@@ -247,18 +253,42 @@ FitResult fit_and_judge(const Table& t,
   return {std::move(d), std::move(found.best.model)};
 }
 
+/// Fit of a table that is known up to one factor.
+FitResult fit_free_scale(const Table& t,
+                         FitOptions o,
+                         const std::function<void(const char*)>& phase,
+                         bool tries) {
+  o = with_weights(std::move(o));
+  double factor = working_factor(t);
+  for (int left = 3;; --left) {
+    Table scaled = t;
+    scale_values(scaled, factor);
+    SharedColumns own;
+    FitResult result = fit_and_judge(scaled, o, own, phase, tries);
+    if (left > 0 && is_scale_too_large(result.model)) {
+      factor *= 0.01;
+      continue;
+    }
+    leave_scale_open(result.document, result.model, factor);
+    return result;
+  }
+}
+
 }  // namespace
 
 FitResult fit(const Table& t, const FitOptions& o, const std::function<void(const char*)>& phase) {
   SharedColumns alone;
-  return fit_and_judge(t, o, alone, phase, o.certificate != Certify::none);
+  const bool tries = o.certificate != Certify::none;
+  return o.scale == Scale::free ? fit_free_scale(t, o, phase, tries)
+                                : fit_and_judge(t, o, alone, phase, tries);
 }
 
 FitResult fit(const Table& t,
               const FitOptions& o,
               SharedColumns& columns,
               const std::function<void(const char*)>& phase) {
-  return fit_and_judge(t, o, columns, phase, false);
+  return o.scale == Scale::free ? fit_free_scale(t, o, phase, false)
+                                : fit_and_judge(t, o, columns, phase, false);
 }
 
 }  // namespace gonio

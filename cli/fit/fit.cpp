@@ -14,6 +14,7 @@
 #include "fitting/batch/batch.h"
 #include "fitting/batch/fit_file.h"
 #include "fitting/choice/document.h"
+#include "fitting/judge/free_scale.h"
 #include "reports/pages/batch_page.h"
 #include "reports/pages/fit_page.h"
 #include "reports/pages/models_page.h"
@@ -86,6 +87,9 @@ void print(const FitDocument& d) {
       else
         say_below(fmt::format("{:<13} {:<27} ", name, value), status);
     }
+  for (const auto& r : d.ratios.value_or(std::vector<Ratio>()))
+    say("{:<14}{}\n", r.of + "/" + r.to,
+        with_error(r.value, (r.ci95_high - r.ci95_low) / (2 * 1.96), r.ci95_low, r.ci95_high));
   const auto& chi2 = d.residuals.chi2_per_freedom;
   say_below("", fmt::format("log RMS {:.4g}, RMS {:.4g} 1/sr{}; standard errors: {}",
                             d.residuals.log_rms, d.residuals.rms,
@@ -214,7 +218,7 @@ Exit run_models(const FitCall& o) {
   if (o.pages)
     throw wrong_usage("--pages is of many tables; the page of --models is --html PAGE.html");
   if (o.part) throw wrong_usage("--part is of the fits of many tables, not of --models");
-  const auto models = models_asked(o.models);
+  auto models = models_asked(o.models);
   const auto files = o.as_one ? tables_of(o.files) : o.files;
   OutputFiles out(files, o.output, o.html);
   Progress progress(o.quiet);
@@ -222,10 +226,20 @@ Exit run_models(const FitCall& o) {
   TableAndDigest in = read_files(files, o.how.bins);
   Table& table = in.table;
   take(table, o.how.measured);
+  FitOptions options = o.how.options;
+  if (options.scale == Scale::free) {
+    scale_values(table, working_factor(table));
+    models = with_weights(options, models);
+    options.scale = Scale::held;
+  }
   ModelChoice choice =
-      compare_models(table, o.how.options, models, [&](const std::string& what, double part) {
+      compare_models(table, options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
+  if (o.how.options.scale == Scale::free)
+    choice.warnings.insert(choice.warnings.begin(),
+                           "the scale is free: values are multiplied by a factor that makes the "
+                           "table dark, and lobes have weights; ΔE is of that");
   Spheres spheres = add_spheres(table, choice);
   in.finish();
   const Advice advice = advise(choice);

@@ -37,9 +37,7 @@ ColumnMap map_of(const ColumnsCall& o) {
     const std::string role = word.substr(0, at);
     if (at == word.npos || at + 1 == word.size())
       throw wrong_usage(fmt::format("--map takes NAME=COLUMN, not '{}'", word));
-    if (!is_role(role))
-      throw wrong_usage(fmt::format(
-          "'{}' is none of theta_i, phi_i, theta_o, phi_o, f, f_NAME, weight, channel", role));
+    if (!is_role(role)) throw wrong_usage(fmt::format("'{}' is none of {}", role, role_words));
     if (std::ranges::find(map.columns, role, [](const auto& c) { return c.first; }) !=
         map.columns.end())
       throw wrong_usage(fmt::format("--map names {} twice", role));
@@ -48,29 +46,57 @@ ColumnMap map_of(const ColumnsCall& o) {
   return map;
 }
 
-/// \param named  each column that counts is named: constants may stand for the others
-void expect_columns(InputFile& in, bool named) {
+/// Constants may stand for the columns that two numbers a line leave open.
+void expect_columns(InputFile& in) {
   const std::string head = in.peek(1 << 16);
-  if (!is_csv(head) && !(named && looks_delimited(head, 2)))
+  if (!is_csv(head) && !looks_delimited(head, 2))
     throw bad_input(in.path(), "the beginning", head.substr(0, 24),
-                    named ? "text with a line of at least two numbers"
-                          : "text with a line of at least three numbers, or --map");
+                    "text with a line of at least two numbers");
+}
+
+/// What the side file says of the columns, if it does.
+std::optional<ColumnMap> known_map(const std::string& file) {
+  const std::string side = side_text(file);
+  return side.empty() ? std::nullopt : column_map(side_path(file), side);
+}
+
+/// Options without --map change what the side file says, which keeps its columns.
+ColumnMap with_known(const ColumnsCall& o, const std::string& file, ColumnMap map) {
+  if (!o.words.empty()) return map;
+  const auto known = known_map(file);
+  if (!known) return map;
+  const ColumnMap usual;
+  map.columns = known->columns;
+  map.radians = map.radians || known->radians;
+  map.cosine = map.cosine || known->cosine;
+  if (map.forward_deg == usual.forward_deg) map.forward_deg = known->forward_deg;
+  if (map.scale == usual.scale) map.scale = known->scale;
+  if (map.skip == 0) map.skip = known->skip;
+  return map;
+}
+
+/// The proposal for a file's columns, of which it has these.
+ColumnProposal proposal_for(InputFile& in, const std::vector<ColumnSummary>& columns) {
+  return propose_columns(columns, in.path(), in.peek(1 << 14));
 }
 
 /// True where lines to pass over are all that is said, and the names below them are not enough.
 bool asks_below(const ColumnsCall& o, const std::string& file) {
   if (o.map.skip == 0) return true;
   InputFile in(file);
-  expect_columns(in, false);
-  const auto p = propose_columns(csv_columns(in, o.map.skip));
+  expect_columns(in);
+  const auto p = proposal_for(in, csv_columns(in, o.map.skip));
   return !p.map || p.needed;
 }
 
 /// The table as the map makes it, and the text of its side file.
-std::pair<Table, std::string> read_with(const std::string& file, const ColumnMap& map) {
+std::pair<Table, std::string> read_with(const ColumnsCall& o,
+                                        const std::string& file,
+                                        const ColumnMap& said) {
   may_replace(side_path(file));
+  const ColumnMap map = with_known(o, file, said);
   InputFile in(file);
-  expect_columns(in, !map.columns.empty());
+  expect_columns(in);
   Table t = read_csv(in, &map);
   t.path = file;
   t.sha256 = sha256_of_file(file);
@@ -146,10 +172,9 @@ void print(const ColumnProposal& p, const std::string& file) {
 Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   progress("reading " + file);
   InputFile in(file);
-  expect_columns(in, false);
+  expect_columns(in);
   const std::size_t skip = o.map.skip;
-  const std::string side = skip ? "" : side_text(file);
-  const auto map = side.empty() ? std::nullopt : column_map(side_path(file), side);
+  const auto map = skip ? std::nullopt : known_map(file);
   const auto columns = csv_columns(in, map ? map->skip : skip);
   progress.clear();
   Json all = Json::array();
@@ -174,12 +199,12 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
     else
       fmt::print("{:>14}\n", "no numbers");
   }
-  Json said = map ? columns_of(file, side) : Json();
+  Json said = map ? columns_of(file, side_text(file)) : Json();
   Json proposed;
   if (map) {
     if (!o.json) say("{} says {}\n", side_path(file), line_of(said));
   } else {
-    auto p = propose_columns(columns);
+    auto p = proposal_for(in, columns);
     if (p.map) p.map->skip = skip;
     if (!o.json) print(p, file);
     if (p.map)
@@ -206,7 +231,7 @@ Exit run(const ColumnsCall& o) {
     std::vector<std::pair<Table, std::string>> all;
     for (const auto& file : o.files) {
       progress("reading " + file);
-      all.push_back(read_with(file, map));
+      all.push_back(read_with(o, file, map));
     }
     progress.clear();
     for (const auto& [t, side] : all) {
@@ -234,10 +259,13 @@ void add_columns(CommandLine& line) {
       run);
   c.option("FILE", o->files, "CSV: fields between ; tabs, commas or blanks").required();
   c.option("--map", o->words,
-           "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, weight, or "
-           "channel (each of its entries is one: a wavelength a row); COLUMN a name, #k, or a "
-           "constant such as 0; f_*=*nm takes every column of that pattern. Unnamed: the column of "
-           "that very name; azimuths: 0")
+           "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, u_f, u_percent, "
+           "weight, or "
+           "channel (each of its entries is one: a wavelength a row); or theta_h, phi_h, theta_d, "
+           "phi_d. COLUMN is a name, #k, a "
+           "constant such as 0, or header: the columns' names are that angle, as in a matrix; "
+           "f_*=*nm takes every column of that pattern. Unnamed: the column of "
+           "that very name; azimuths: 0. Without --map a side file's columns stay")
       .at_most(4096);
   c.flag("--radians", o->map.radians, "Angles are in radians");
   c.flag("--cosine", o->map.cosine, "Values are f cos(theta_o)");

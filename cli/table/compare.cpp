@@ -62,14 +62,22 @@ Exit run(const CompareCall& o) {
   progress("reading " + o.file);
   Table t = read_table(o.file, o.bins);
   take(t, o.measured);
-  const BoundModel m =
-      model_argument(read_as(o.model, o.reading), parse_settings(o.set), t.channels.size()).model;
+  const auto [m, names, aperture_deg] =
+      model_argument(read_as(o.model, o.reading), parse_settings(o.set), t.channels.size());
+  const bool as_fitted = !t.aperture && aperture_deg.size() == 2;
+  if (as_fitted) {
+    t.aperture = {aperture_deg[0] * degree, aperture_deg[1] * degree};
+    check_aperture(o.model, t.aperture);
+  }
   check_azimuths(t, m.model);
   progress("comparing");
   const Sampling sampling(t, t.bins(), Metric::l2_cosine, 0, false, false, m.model.anisotropic);
   const FreeSlots nothing(std::vector<bool>(m.model.value_count, false));
   const auto [sandwich, r, angles, counts] = assess(sampling, m, nothing, no_huber, false);
   progress.clear();
+  if (as_fitted && !o.json)
+    say("means over cones of {:.4g}° (light) and {:.4g}° (detector), as in the fit\n",
+        aperture_deg[0], aperture_deg[1]);
   if (o.json)
     fmt::print("{}", to_json(Comparison{o.file, {m.model.spec, named_values(m)}, r}));
   else

@@ -25,7 +25,7 @@ Json columns_in(const std::string& path) try {
   const auto columns = csv_columns(in);
   Json names = Json::array(), map;
   for (const auto& c : columns) names.push_back(c.name);
-  const auto p = propose_columns(columns);
+  const auto p = propose_columns(columns, path, in.peek(1 << 14));
   if (p.map) map = parse_json(path, with_columns(side_path(path), "", *p.map))["columns"];
   return {{"names", names}, {"map", map}, {"needed", p.needed}, {"said", p.said}};
 } catch (const Error&) {

@@ -117,12 +117,20 @@ struct Physics {
   std::vector<double> peak_ratio;  ///< by channel: greatest of the model over that of the table
 };
 
+/// One parameter's value over another's, of a fit whose scale is free.
+struct Ratio {
+  std::string of, to;  ///< "kd.g", "kd.r"
+  double value, ci95_low, ci95_high;
+};
+
 struct FitDocument {
   std::string model;
   std::vector<std::string> channels;  ///< of the table, as parameters with channels are indexed
   std::vector<std::string> warnings;  ///< what a reader must know before believing the numbers
   std::vector<std::string> next;      ///< what may help, see next_steps()
   std::vector<FittedParameter> parameters;  ///< alpha and roughness both
+  std::optional<std::vector<Ratio>> ratios =
+      {};  ///< of what is known up to one factor, where the scale is free
   std::string metric;
   double log_offset = 0;  ///< [1/sr] of the log metric
   std::string robust = "none";
@@ -140,8 +148,9 @@ struct FitDocument {
   FitSolver solver;
 
   std::string input_path, input_sha256, input_format;
-  std::string bins;                  ///< "centre", "edge" or "none"
-  std::string uncertainty = "none";  ///< or "stated", of each value
+  std::string bins;                                      ///< "centre", "edge" or "none"
+  std::string uncertainty = "none";                      ///< or "stated", of each value
+  std::optional<std::vector<double>> aperture_deg = {};  ///< of light and detector, if known
   std::size_t values_used = 0;
   std::map<std::string, std::size_t> masked;  ///< values left out, by reason
   std::vector<BinSensitivity> sensitivity;    ///< empty where there are no bins

@@ -119,6 +119,16 @@ inline constexpr auto description<Physics> = FieldList{
           "greatest value of the model at the samples over the greatest of these, by channel"}};
 
 template <>
+inline constexpr auto description<Ratio> =
+    FieldList{Field{"of", &Ratio::of, "name of a parameter, with its channel"},
+              Field{"to", &Ratio::to, ""}, Field{"value", &Ratio::value, "of one over the other"},
+              Field{"ci95",
+                    [](const Ratio& r) {
+                      return std::array{r.ci95_low, r.ci95_high};
+                    },
+                    "ends of the 95 % confidence interval"}};
+
+template <>
 inline constexpr auto description<FitDocument> = FieldList{
     constant_text("schema", "gonio.fit/1"),
     Field{"model", &FitDocument::model, ""},
@@ -127,6 +137,8 @@ inline constexpr auto description<FitDocument> = FieldList{
     Field{"next", &FitDocument::next,
           "sentences on what to try, the most promising first; models as --model takes them"},
     Field{"parameters", by_name(&FitDocument::parameters), ""},
+    Field{"ratios", if_there(&FitDocument::ratios),
+          "of what is known up to one factor, where the scale is free"},
     Field{"metric", &FitDocument::metric, "how values were compared"},
     Field{"log_offset", "1/sr", &FitDocument::log_offset, "offset of the log metric"},
     Field{"robust", &FitDocument::robust, "none or huber"},
@@ -147,6 +159,8 @@ inline constexpr auto description<FitDocument> = FieldList{
           Field{"format", &FitDocument::input_format, ""},
           Field{"bins", &FitDocument::bins, "centre, edge or none"},
           Field{"uncertainty", &FitDocument::uncertainty, "of the values: stated or none"},
+          Field{"aperture", "°", if_there(&FitDocument::aperture_deg),
+                "full widths of the cones of light and detector that the model was averaged over"},
           Field{"values_used", &FitDocument::values_used, ""},
           Field{"masked", &FitDocument::masked, "values left out, by reason"}},
     Field{"bin_sensitivity", &FitDocument::sensitivity, "empty where there are no bins"},

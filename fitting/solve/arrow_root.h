@@ -23,18 +23,18 @@ class ArrowRoot {
   ArrowRoot(const ArrowMatrix&, double tiny);
 
   struct Arm {
-    Vector scale, eigenvalues, root;  ///< S; Λ_c; Λ_c^(−1/2), 0 where left out
+    Column scale, eigenvalues, root;  ///< S; Λ_c; Λ_c^(−1/2), 0 where left out
     Columns eigenvectors, border, w;  ///< V_c, B_c, W_c
   };
-  const Vector& scale() const { return scale_; }  ///< of the head
+  const Column& scale() const { return scale_; }  ///< of the head
   const Eigenpairs& head() const { return head_; }
   const std::vector<Arm>& arms() const { return arms_; }
 
   /// Gradient g in that form: parts of the arms and of the head with Jᵀ r = S g, where
   /// r_c = arms[c] and the head's r = Λ^(−1/2) head.
   struct Rotated {
-    std::vector<Vector> arms;
-    Vector head;
+    std::vector<Column> arms;
+    Column head;
   };
   Rotated rotated(std::span<const double> g) const;
   /// S (S A S)⁻¹ of what was rotated: A⁻¹ g, by unknowns.
@@ -50,7 +50,7 @@ class ArrowRoot {
 
  private:
   std::shared_ptr<const ArrowLayout> layout_;
-  Vector scale_;
+  Column scale_;
   Columns scaled_;  ///< H
   Eigenpairs head_;
   std::vector<Arm> arms_;

@@ -16,15 +16,15 @@ Columns times_transposed(const Columns& a) {
   return a * a.transpose();
 }
 
-Vector times(const Columns& a, const Vector& v) {
+Column times(const Columns& a, const Column& v) {
   return a * v;
 }
 
-Vector transposed_times(const Columns& a, const Vector& v) {
+Column transposed_times(const Columns& a, const Column& v) {
   return a.transpose() * v;
 }
 
-Columns scaled(const Vector& left, const Columns& a, const Vector& right) {
+Columns scaled(const Column& left, const Columns& a, const Column& right) {
   return left.asDiagonal() * a * right.asDiagonal();
 }
 
@@ -33,7 +33,7 @@ Eigenpairs eigenpairs(const Columns& symmetric) {
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
-Vector eigenvalues(const Columns& symmetric) {
+Column eigenvalues(const Columns& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Columns>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
 }
 

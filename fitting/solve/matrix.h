@@ -11,7 +11,7 @@ namespace gonio {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Columns = Eigen::MatrixXd;
-using Vector = Eigen::VectorXd;
+using Column = Eigen::VectorXd;
 
 inline Eigen::Index index(std::size_t n) {
   return static_cast<Eigen::Index>(n);
@@ -21,17 +21,17 @@ inline Eigen::Index index(std::size_t n) {
 Columns product(const Columns& a, const Columns& b);
 Columns transposed_product(const Columns& a, const Columns& b);
 Columns times_transposed(const Columns& a);
-Vector times(const Columns& a, const Vector& v);
-Vector transposed_times(const Columns& a, const Vector& v);
+Column times(const Columns& a, const Column& v);
+Column transposed_times(const Columns& a, const Column& v);
 /// diag(left) a diag(right)
-Columns scaled(const Vector& left, const Columns& a, const Vector& right);
+Columns scaled(const Column& left, const Columns& a, const Column& right);
 
 /// Eigenvalues of a symmetric matrix in ascending order, and its eigenvectors as columns.
 struct Eigenpairs {
-  Vector values;
+  Column values;
   Columns vectors;
 };
 Eigenpairs eigenpairs(const Columns& symmetric);
-Vector eigenvalues(const Columns& symmetric);
+Column eigenvalues(const Columns& symmetric);
 
 }  // namespace gonio

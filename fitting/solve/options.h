@@ -29,6 +29,11 @@ enum class Certify { none, automatic };
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<Certify>{"none", "auto"};
 
+/// What the table's values are: f, or known up to one factor.
+enum class Scale { held, free };
+template <>
+inline constexpr std::array<std::string_view, 2> names_of<Scale>{"held", "free"};
+
 template <>
 inline constexpr auto description<Setting> =
     FieldList{Field{"name", &Setting::name, ""},
@@ -52,6 +57,7 @@ struct FitOptions {
   bool copies = false;          ///< fit also what only repeats another angle
   bool bin_sensitivity = true;  ///< fit again under the other bin convention
   Certify certificate = Certify::none;
+  Scale scale = Scale::held;
 };
 
 /// Fields of what is fitted and how values are compared, which fits of tables and of texels share.
@@ -81,7 +87,10 @@ inline constexpr auto description<FitOptions> = joined(
               "whether there is a fit under the other bin convention, too", not_asked},
         Field{"certificate", &FitOptions::certificate,
               "auto: after the fit its cost is looked at over the widths, for anything lower; or "
-              "none, which is faster"}});
+              "none, which is faster"},
+        Field{"scale", &FitOptions::scale,
+              "free: values are known up to one factor, as counts are. Each lobe gets a weight; kd "
+              "and weights are then known relative to each other only"}});
 /// A kept result is found by these: none may be forgotten.
 static_assert(describes_every_member<FitOptions>());
 

@@ -20,7 +20,15 @@ inline constexpr auto description<Cut> = FieldList{
     Field{"along", &Cut::along, "angle that varies along the curve"},
     Field{"deg", "°", &Cut::deg, "places, ascending"},
     Field{"data", "1/sr", &Cut::data, "data by channel and place"},
-    Field{"model", "1/sr", &Cut::model, "model by channel and place; empty without one"}};
+    Field{"model", "1/sr", &Cut::model, "model by channel and place; empty without one"},
+    Field{"uncertainty", "1/sr", if_there([](const Cut& c) {
+            return c.uncertainty.empty() ? std::nullopt : std::optional(c.uncertainty);
+          }),
+          "standard uncertainty of the data, where it is stated"},
+    Field{"left_out", "1/sr", if_there([](const Cut& c) {
+            return c.left_out.empty() ? std::nullopt : std::optional(c.left_out);
+          }),
+          "data that --mask leaves out"}};
 
 template <>
 inline constexpr auto description<ResidualMap> =

@@ -225,7 +225,7 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
     row.emplace_back();
     row.back().mark = drawing(r);
   }
-  return {
+  Section out{
       "Parameters",
       fmt::format(
           "Values are written to the second digit of their standard error. Intervals: "
@@ -235,6 +235,16 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
           with_truth ? " The table is synthetic: the orange tick is the value it was made with."
                      : ""),
       {std::move(t)}};
+  if (d.ratios) {
+    page::Table ratios{columns("|>ratio|>95 % interval"), {}, "scroll"};
+    for (const auto& r : *d.ratios)
+      ratios.rows.push_back({Cell(fmt::format("`{}` / `{}`", r.of, r.to)),
+                             Cell(significant(r.value)),
+                             Cell(significant(r.ci95_low) + " … " + significant(r.ci95_high))});
+    out.parts.emplace_back(Subtitle{"Known up to one factor, as the scale is free"});
+    out.parts.emplace_back(std::move(ratios));
+  }
+  return out;
 }
 
 }  // namespace

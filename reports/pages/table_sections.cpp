@@ -16,6 +16,7 @@ namespace {
 
 using page::Group;
 
+constexpr double two_sigma = 1.96;    ///< half a 95 % interval, in standard uncertainties
 constexpr double noise_alone = 0.95;  ///< median difference of exchanged directions over σ
 
 std::string noise_share(const Noise& n) {
@@ -73,10 +74,20 @@ Figure cut_figure(const gonio::Table& t, const Cut& cut, bool log) {
   for (std::size_t c = 0; c < t.channels.size(); ++c) {
     const auto& name = t.channels[c];
     f.curves.push_back(points_of(several ? name : "table", cut.deg, cut.data[c]));
+    if (!cut.uncertainty.empty())
+      for (const double u : cut.uncertainty[c]) f.curves.back().y_error.push_back(two_sigma * u);
     if (cut.model.empty()) continue;
     f.curves.push_back({several ? name + ", model" : "model", cut.deg, cut.model[c]});
     if (several) f.curves.back().look = name;
   }
+  FigureCurve left_out{"left out", {}, {}, FigureCurve::Kind::points};
+  for (const auto& channel : cut.left_out)
+    for (std::size_t i = 0; i < channel.size(); ++i)
+      if (std::isfinite(channel[i])) {
+        left_out.x.push_back(cut.deg[i]);
+        left_out.y.push_back(channel[i]);
+      }
+  if (!left_out.x.empty()) f.curves.push_back(std::move(left_out));
   if (in_plane && most > 0) {
     f.curves.push_back({"mirror direction", {cut.at_deg, cut.at_deg}, {f.y.from, f.y.to}});
     f.curves.back().dashed = true;
@@ -216,11 +227,19 @@ page::Section curves_section(const gonio::Table& t,
     out.text = "No valid sample lies in the plane of incidence.";
     return out;
   }
-  out.text = fmt::format("Points are the table's samples{}{}, without the cosine.",
-                         has(&Cut::at, "theta_i") && t.has_bins()
-                             ? " (where the grid has them, interpolated in the other angles)"
-                             : "",
-                         with_model ? ", lines the fitted model" : "");
+  const auto any = [&](auto of) {
+    return std::ranges::any_of(cuts, [&](const Cut& c) { return !(c.*of).empty(); });
+  };
+  out.text = fmt::format(
+      "Points are the table's samples{}{}, without the cosine.{}{}",
+      has(&Cut::at, "theta_i") && t.has_bins()
+          ? " (where the grid has them, interpolated in the other angles)"
+          : "",
+      with_model ? ", lines the fitted model" : "",
+      any(&Cut::uncertainty) ? " Bars are 95 % intervals by the stated uncertainties." : "",
+      any(&Cut::left_out) ? " Samples called left out are those of --mask; no "
+                            "fit reads them."
+                          : "");
   Choice c;
   c.controls = {{"scale", "Scale of f_r", "logarithmic"}};
   c.look = "";

@@ -56,7 +56,9 @@ ModelArgument model_argument(const std::string& name,
                              std::optional<std::size_t> channels) {
   expect_no_settings(set);
   if (!channels && !fitted.channels.empty()) channels = fitted.channels.size();
-  return named(bind_fitted(name, fitted, channels), fitted.channels);
+  auto argument = named(bind_fitted(name, fitted, channels), fitted.channels);
+  argument.aperture_deg = fitted.aperture_deg;
+  return argument;
 }
 
 }  // namespace gonio

@@ -18,7 +18,8 @@ std::vector<std::string> file_in(const std::string& model);
 
 struct ModelArgument {
   BoundModel model;
-  std::vector<std::string> channels;  ///< the fit's names; else "r", "g", "b", or "f" of one
+  std::vector<std::string> channels;      ///< the fit's names; else "r", "g", "b", or "f" of one
+  std::vector<double> aperture_deg = {};  ///< of the fit's table: light, detector; or empty
 };
 /// The model named.  \param channels  as many as the model must have; else as many as its colours, or three
 /// \throws Error  bad_input of a fit.json that is none, holds null values, or does not have these

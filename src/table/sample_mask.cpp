@@ -230,6 +230,29 @@ class Parser {
   int depth_ = 0;
 };
 
+/// A list loses the other samples, a grid has no value there.
+void keep_where(Table& t, const std::vector<bool>& kept) {
+  if (t.grid()) {
+    for (auto& plane : t.values)
+      for (std::size_t i = 0; i < plane.size(); ++i)
+        if (!kept[i]) plane[i] = std::numeric_limits<double>::quiet_NaN();
+    return;
+  }
+  const auto keep = [&](auto& all) {
+    if (all.empty()) return;
+    std::size_t to = 0;
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (kept[i]) all[to++] = all[i];
+    all.resize(to);
+  };
+  auto& l = std::get<DirectionList>(t.where);
+  for (auto* angles : {&l.theta_i_deg, &l.phi_i_deg, &l.theta_o_deg, &l.phi_o_deg}) keep(*angles);
+  for (auto* planes : {&t.values, &t.errors})
+    for (auto& plane : *planes) keep(plane);
+  keep(t.weights);
+  keep(t.patches);
+}
+
 }  // namespace
 
 void leave_out(Table& t, std::string_view expression) {
@@ -253,25 +276,12 @@ void leave_out(Table& t, std::string_view expression) {
                        fmt::format("{} leaves out {} of {} samples", expression, count, t.size()));
   if (count == 0) return;
   t.between = nullptr;  // it would speak for what is left out
-  if (t.grid()) {
-    for (auto& plane : t.values)
-      for (std::size_t i = 0; i < plane.size(); ++i)
-        if (out[i]) plane[i] = std::numeric_limits<double>::quiet_NaN();
-    return;
-  }
-  const auto keep = [&](auto& all) {
-    if (all.empty()) return;
-    std::size_t to = 0;
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (!out[i]) all[to++] = all[i];
-    all.resize(to);
-  };
-  auto& l = std::get<DirectionList>(t.where);
-  for (auto* angles : {&l.theta_i_deg, &l.phi_i_deg, &l.theta_o_deg, &l.phi_o_deg}) keep(*angles);
-  for (auto* planes : {&t.values, &t.errors})
-    for (auto& plane : *planes) keep(plane);
-  keep(t.weights);
-  keep(t.patches);
+  t.left_out.reset();
+  auto rest = std::make_shared<Table>(t);
+  keep_where(*rest, out);
+  out.flip();
+  keep_where(t, out);
+  t.left_out = std::move(rest);
 }
 
 }  // namespace gonio

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <string>
 #include <utility>
@@ -117,6 +118,9 @@ struct Table {
   Aperture aperture;            ///< what each value is the mean over, as far as the file says
   std::vector<double> patches;  ///< ∫ cos θ_o dω_o of the patch that each sample's value is the
                                 ///< mean of; empty: points
+
+  /// Samples that an expression left out, for pictures; null: none.
+  std::shared_ptr<const Table> left_out;
 
   std::size_t size() const { return values.empty() ? 0 : values[0].size(); }
   const Grid* grid() const { return std::get_if<Grid>(&where); }

@@ -37,7 +37,9 @@ TEST(Columns, AreShownUntilAMapIsGivenAndReadByItAfterwards) {
 TEST(Columns, MayBeTwoWhereConstantsStandForTheOthers) {
   const Folder f;
   f.write("run30.txt", "angle brdf\n10 0.4\n20 0.6\n");
-  expect_one_line(gonio(f, "columns run30.txt"), 3, "or --map");
+  EXPECT_NE(gonio(f, "columns run30.txt").out.find("one angle for all is --map theta_i=30"),
+            std::string::npos)
+      << "a number in a name says nothing";
   ASSERT_EQ(gonio(f, "columns run30.txt --map theta_i=30 theta_o=angle phi_o=180 f=brdf").code, 0);
   f.write("run40.txt", "angle brdf\n10 0.5\n20 0.7\n");
   ASSERT_EQ(gonio(f, "columns run40.txt --map theta_i=40 theta_o=angle phi_o=180 f=brdf").code, 0);
@@ -79,6 +81,95 @@ TEST(Columns, AreProposedBelowTheLinesThatArePassedOver) {
   EXPECT_TRUE(command.ends_with("--skip 2")) << command;
   ASSERT_EQ(gonio(f, command).code, 0) << command;
   EXPECT_EQ(gonio(f, "inspect t.csv --json").json()["samples"], 2);
+}
+
+/// Runs the command that `gonio columns` prints for a file.
+void take_proposal(const Folder& f, const std::string& name) {
+  const std::string text = gonio(f, "columns '" + name + "'").out;
+  const auto at = text.find("\n  gonio columns ");
+  ASSERT_NE(at, text.npos) << name << text;
+  const std::string command = text.substr(at + 9, text.find('\n', at + 1) - at - 9);
+  ASSERT_EQ(gonio(f, command).code, 0) << command;
+}
+
+TEST(Columns, OfEachLayoutAreFittedByTheCommandThatIsProposed) {
+  const BoundModel paint = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                                      {{"alpha", {0.3}}, {"f0", {0.05}}, {"kd", {0.3}}}, 1);
+  const auto f = [&](const DirectionPair& p) {
+    return evaluate(paint, std::vector{angles(p)})[0][0];
+  };
+  const auto in_plane = [&](double in, double out) {
+    return f({direction(in * degree, 0), direction(out * degree, 180 * degree)});
+  };
+  const auto matrix = [&](const std::string& corner, const char* cell, bool rows_are_light) {
+    std::string text = corner;
+    const int rows = rows_are_light ? 5 : 15, columns = rows_are_light ? 15 : 5;
+    const auto light = [](int k) { return 15 * k; };
+    const auto viewer = [](int k) { return 5 * k; };
+    for (int c = 0; c < columns; ++c)
+      text += ";" + fmt::format(fmt::runtime(cell), rows_are_light ? viewer(c) : light(c));
+    for (int r = 0; r < rows; ++r) {
+      text += fmt::format("\n{}", rows_are_light ? light(r) : viewer(r));
+      for (int c = 0; c < columns; ++c)
+        text += fmt::format(";{:.9g}", rows_are_light ? in_plane(light(r), viewer(c))
+                                                      : in_plane(light(c), viewer(r)));
+    }
+    return text + "\n";
+  };
+  std::string half = "theta_h,theta_d,phi_d,brdf\n", run = "angle brdf\n",
+              sure = "aoi,theta_s,phi,BRDF [1/sr],U (k=2) [%]\n";
+  for (int h = 0; h < 90; h += 6)
+    for (int d = 0; d < 90; d += 6)
+      for (int phi = 0; phi < 180; phi += 30)
+        half += fmt::format("{},{},{},{:.9g}\n", h, d, phi,
+                            f(directions({h * degree, 0, d * degree, phi * degree})));
+  for (int out = 0; out < 80; out += 2) run += fmt::format("{} {:.9g}\n", out, in_plane(30, out));
+  for (int in = 0; in < 80; in += 20)
+    for (int out = 0; out < 80; out += 5)
+      sure += fmt::format("{},{},180,{:.9g},3\n", in, out, in_plane(in, out));
+  const std::pair<const char*, std::string> files[] = {
+      {"matrix.csv", matrix("", "{}", false)},
+      {"wide.csv", matrix("", "{}", true)},
+      {"zero.txt", matrix("0", "{}", false)},
+      {"named.csv", matrix("theta_o", "theta_i={}", false)},
+      {"corner.csv", matrix("theta_i \\ theta_o", "{} deg", true)},
+      {"half.csv", half},
+      {"sample_30deg.txt", run},
+      {"gloss thetai30.txt", run},
+      {"run2_aoi_30.txt", run},
+      {"header.txt", "# Angle of incidence: 30 deg\n" + run},
+      {"sure.csv", sure}};
+  const Folder folder;
+  for (const auto& [name, text] : files) {
+    folder.write(name, text);
+    take_proposal(folder, name);
+    const auto fit = gonio(folder, std::string("fit '") + name + "' --json").json();
+    EXPECT_LT(fit["residuals"]["log_rms"], 1e-5) << name;
+    EXPECT_NEAR(fit["parameters"]["alpha"]["value"].get<double>(), 0.3, 1e-3) << name;
+    EXPECT_EQ(fit["input"]["uncertainty"], text == sure ? "stated" : "none") << name;
+  }
+  for (const char* name : {"phi_30deg.txt", "30deg_45deg.txt", "sample30.txt", "95deg.txt"}) {
+    folder.write(name, run);
+    EXPECT_NE(gonio(folder, std::string("columns ") + name).out.find("unclear"), std::string::npos)
+        << name << ": no plain incident angle";
+  }
+}
+
+TEST(Columns, KeepWhatIsSaidOfThemUnderOptionsAfterwards) {
+  const Folder f;
+  f.write("t.csv", "in,out,brdf\n30,20,1\n30,40,2\n");
+  ASSERT_EQ(gonio(f, "columns t.csv --map theta_i=in theta_o=out f=brdf --cosine").code, 0);
+  ASSERT_EQ(gonio(f, "columns t.csv --scale 0.5").code, 0);
+  EXPECT_NEAR(gonio(f, "inspect t.csv --json").json()["largest"].get<double>(),
+              1 / std::cos(40 * M_PI / 180), 1e-9);
+  expect_one_line_each(
+      f, 3,
+      {{"columns t.csv --map theta_i=header theta_o=header", "theta_i and theta_o in the header"},
+       {"columns t.csv --map theta_i=30 theta_o=in phi_o=header f=brdf",
+        "f beside an angle in the header"},
+       {"columns t.csv --map theta_o=in theta_i=header", "no column with a number in its name"},
+       {"columns t.csv --map theta_h=in f=brdf", "theta_d"},
+       {"columns t.csv --map theta_h=in theta_d=out phi_o=0 f=brdf", "phi_o beside theta_h"}});
 }
 
 /// Values of a paint at ten incident angles, half round, as a file has them that is no f.

@@ -197,8 +197,6 @@ void bring(const Folder& f, const std::string& name) {
           text += fmt::format(",{:.5g}", satin(p, 0) * nm / 500);
       }
     f.write(name, text + "\n");
-  } else if (name == "run30.txt") {
-    f.write(name, "angle brdf\n10 0.4\n20 0.6\n30 0.8\n40 0.6\n");
   } else if (fs::is_directory(root / "docs/examples" / name)) {
     fs::copy(root / "docs/examples" / name, f / name, fs::copy_options::recursive);
   } else {

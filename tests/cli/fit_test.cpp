@@ -1,5 +1,6 @@
 // gonio fit as a person at a terminal sees it.
 #include <algorithm>
+#include <filesystem>
 
 #include "base/text.h"
 #include "cli/program.h"
@@ -44,6 +45,39 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
   EXPECT_NE(piped.find("; intervals allow for it\nbeware  the largest deviation is near theta_h "),
             piped.npos)
       << piped;
+}
+
+TEST(Fit, RemembersTheConesForACompare) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout in_plane --aperture 8,2 -o t.csv").code,
+      0);
+  ASSERT_EQ(gonio(f, "fit t.csv -o fit.json --certificate none").code, 0);
+  std::filesystem::remove(f / "t.csv.gonio.json");
+  const auto rms = [&](const std::string& options) {
+    return gonio(f, "compare t.csv " + options + " --json")
+        .json()["residuals"]["rms"]
+        .get<double>();
+  };
+  EXPECT_EQ(rms("fit.json"), rms("fit.json --aperture 8,2"));
+  EXPECT_NE(gonio(f, "compare t.csv fit.json").out.find("8° (light) and 2° (detector)"),
+            std::string::npos);
+  EXPECT_LT(rms("fit.json"), 0.1 * rms("fit.json --aperture 0.1,0"));
+}
+
+TEST(Fit, ComparesModelsOfCountsByTheirWeights) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout in_plane --noise 0.02 -o t.csv").code, 0);
+  ASSERT_EQ(gonio(f, "columns t.csv --scale 54321").code, 0);
+  const std::string lobe = "ggx/smith_ggx.correlated/schlick";
+  const auto d =
+      gonio(f, "fit t.csv --scale free --models lambert,eon,lambert+" + lobe + " --json").json();
+  ASSERT_EQ(d["models"].size(), 2U) << "eon has no weight";
+  EXPECT_EQ(d["recommended"], "lambert+" + lobe + ".weighted");
+  EXPECT_NE(d["warnings"].dump().find("the scale is free"), std::string::npos);
+  expect_one_line(gonio(f, "fit t.csv --scale free --models eon"), 2, "scale free");
+  expect_one_line(gonio(f, "fit t.csv --scale free --fix kd=0.3"), 2, "kd given");
 }
 
 TEST(Fit, SaysInTwoLinesWhatToTryNext) {

@@ -12,6 +12,7 @@
 #include "fitting/support.h"
 #include "table/format/measured_by.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <tbb/parallel_for.h>
 
@@ -169,9 +170,16 @@ TEST(Aperture, IntervalsByStatedUncertaintiesHoldTheTruth) {
   for (const double width : {0.3, 0.7, 1.4})
     for (const double alpha : {0.003, 0.01, 0.05}) {
       const double part = coverage(alpha, {width * degree, 0}, 200);
+      RecordProperty(fmt::format("width {} alpha {}", width, alpha), fmt::to_string(part));
       EXPECT_GE(part, 0.91) << width << "° " << alpha;
       EXPECT_LE(part, 0.995) << width << "° " << alpha;
     }
+  for (const double alpha : {0.05, 0.1, 0.3}) {
+    const double part = coverage(alpha, {}, 400);
+    RecordProperty(fmt::format("points alpha {}", alpha), fmt::to_string(part));
+    EXPECT_GE(part, 0.92) << alpha;
+    EXPECT_LE(part, 0.98) << alpha;
+  }
 }
 
 TEST(StatedUncertainties, AreWeighedAndJudged) {

@@ -59,6 +59,8 @@ FittedModel fitted_model(const JsonDocument& document) {
   if (root.has("channels"))
     for (const auto& channel : root.at("channels").elements())
       fit.channels.push_back(channel.string());
+  if (root.has("input") && root.at("input").has("aperture"))
+    fit.aperture_deg = root.at("input").at("aperture").numbers();
   for (const auto& [name, parameter] : root.at("parameters").members())
     fit.parameters.emplace_back(name, parameter.at("value").numbers());
   return fit;

@@ -18,6 +18,7 @@ struct FittedModel {
   std::string model;
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
   std::vector<std::string> channels = {};  ///< empty where the file does not name them
+  std::vector<double> aperture_deg = {};   ///< cones that the table was averaged over; or empty
 };
 /// Whether bytes begin as the document of a fit or as a file that gonio export put one in.
 /// \param head  first 256 bytes of a file, or all

@@ -18,6 +18,8 @@ constexpr int octaves = 10;  ///< of θ_h, below the largest
 constexpr double beside =
     2;  ///< widths of the cones from the peak, beyond which none of them holds it
 constexpr std::size_t turns = 24;  ///< parts of a circle about the normal, of an anisotropic lobe
+constexpr std::size_t most_slices = 6;  ///< of a cone, by its cosine
+constexpr std::size_t parts_of_a_turn = most_slices * most_slices;
 
 /// Points of [0, 1]⁴ by the additive recurrence whose steps are 1/g, 1/g² …, with g⁵ = g + 1: evenly spread [Roberts 2018].
 using Point = std::array<double, 4>;
@@ -212,16 +214,22 @@ class Sample {
                  across = (centre_.yoh * x_ - centre_.xoh * y_) * slope;
     from_peak_ = std::hypot(along, across / stretch_);
     towards_ = std::atan2(across / stretch_, along);
-    const auto change = [](const Cone& c) {
-      const double of_cosine = c.half() / std::max(c.cos(), 1e-3);
-      return of_cosine * of_cosine / 4;
-    };
-    constexpr double much = 2e-3;
-    halves_ = std::max(change(light_), change(detector_)) > much;
+    for (const auto& [cone, slices] :
+         {std::pair(&light_, &of_light_), {&detector_, &of_detector_}}) {
+      const double theta = std::acos(std::clamp(cone->cos(), 0.0, 1.0)), own = cone->half();
+      slices->from = std::max(std::cos(theta + own), 0.0);
+      slices->to = std::cos(std::max(theta - own, 0.0));
+      const double spread = (slices->to - slices->from) / std::max(cone->cos(), 1e-3);
+      constexpr double little = 0.17, of_one = 0.4;
+      slices->count = spread < little
+                          ? 1
+                          : std::min(most_slices, 2 + static_cast<std::size_t>(spread / of_one));
+    }
   }
 
   std::vector<Weighted> angles() {
-    if (reach_ < 0.003 * from_peak_ && !halves_) return {{1, centre_}};
+    if (reach_ < 0.003 * from_peak_ && of_light_.count * of_detector_.count == 1)
+      return {{1, centre_}};
     if (reach_ * beside < from_peak_)
       far_off();
     else
@@ -234,9 +242,18 @@ class Sample {
   }
 
  private:
-  /// Halves of the cones, where cosines change much in them.
-  std::size_t half_of(const DirectionPair& p) const {
-    return halves_ ? 2 * (p.wi.z > light_.cos()) + (p.wo.z > detector_.cos()) : 0;
+  /// Slices of a cone by its cosine, as many as that changes much in it.
+  struct Slices {
+    double from = 0, to = 1;
+    std::size_t count = 1;
+    std::size_t operator()(double cosine) const {
+      if (count == 1) return 0;
+      const double part = std::max((cosine - from) / (to - from), 0.0) * static_cast<double>(count);
+      return std::min(static_cast<std::size_t>(part), count - 1);
+    }
+  };
+  std::size_t slice_of(const DirectionPair& p) const {
+    return of_light_.count * of_detector_(p.wo.z) + of_light_(p.wi.z);
   }
   /// Part of the circle about the normal that h is in.
   std::size_t turn_of(const FrameAngles<double>& a) const {
@@ -257,7 +274,7 @@ class Sample {
       const double v = std::log(a.sin2_theta_h) / 2;
       low = std::min(low, v);
       high = std::max(high, v);
-      seen.push_back({v, p.wi.z * p.wo.z, 4 * turn_of(a) + half_of(p), a});
+      seen.push_back({v, p.wi.z * p.wo.z, parts_of_a_turn * turn_of(a) + slice_of(p), a});
     }
     if (seen.empty()) return;
     const double range = high - low;
@@ -266,8 +283,10 @@ class Sample {
   /// h by its slopes in elliptic rings about the normal, one direction in the narrower cone: the other follows, dω = 4 VoH dω_h.
   void around_the_peak() {
     constexpr double margin = 1.15;  // of a reach for small cones
-    const double largest = from_peak_ + margin * reach_,
-                 least = std::max(from_peak_ - margin * reach_, 0.0);
+    constexpr double much = 0.12;    // [rad]
+    const bool is_wide = 2 * reach_ > much;
+    const double largest = is_wide ? 1.03 * farthest() : from_peak_ + margin * reach_,
+                 least = is_wide ? 0 : std::max(from_peak_ - margin * reach_, 0.0);
     const double window = least > 0 ? std::asin(margin * reach_ / from_peak_) : std::numbers::pi;
     std::vector<Seen> seen;
     for (int k = 0; k <= octaves; ++k) {
@@ -282,9 +301,25 @@ class Sample {
     const double lowest = std::log(std::ldexp(largest, -octaves));
     for (auto& s : seen) {
       const double octave = std::floor((s.v - lowest) / std::numbers::ln2);
-      s.part += 4 * turns * static_cast<std::size_t>(std::max(octave, -1.0) + 1);
+      s.part += parts_of_a_turn * turns * static_cast<std::size_t>(std::max(octave, -1.0) + 1);
     }
     add_rules(seen, frame_ ? 2 : 3, frame_, out_);
+  }
+  /// Largest elliptic slope of h between the cones' edges.
+  double farthest() const {
+    constexpr int steps = 24;
+    double most = 0;
+    for (int i = 0; i < steps; ++i)
+      for (int k = 0; k < steps; ++k) {
+        Direction wi = light_.at(1, static_cast<double>(i) / steps),
+                  wo = detector_.at(1, static_cast<double>(k) / steps);
+        wi.z = std::max(wi.z, 0.0), wo.z = std::max(wo.z, 0.0);
+        const double x = wi.x + wo.x, y = wi.y + wo.y, z = wi.z + wo.z;
+        if (z > 0)
+          most = std::max(most, std::hypot(x * x_ + y * y_, (y * x_ - x * y_) / stretch_) / z);
+      }
+    constexpr double grazing = 20;
+    return std::min(most, grazing);
   }
   /// \param window  how far from the cones' own azimuth the ring is looked at, to either side
   void ring(double from, double to, bool innermost, double window, std::vector<Seen>& seen) const {
@@ -310,12 +345,13 @@ class Sample {
       const FrameAngles<double> a{
           {p.wi.z, p.wo.z, h.z, voh, sin2}, h.x, h.y, p.wi.x, p.wi.y, p.wo.x, p.wo.y};
       seen.push_back({std::log(sin2) / 2, inside * solid * voh * p.wi.z * p.wo.z,
-                      4 * turn_of(a) + half_of(p), a});
+                      parts_of_a_turn * turn_of(a) + slice_of(p), a});
     }
   }
 
   Cone light_, detector_;
-  bool frame_, halves_ = false;
+  bool frame_;
+  Slices of_light_, of_detector_;
   FrameAngles<double> centre_;
   double x_ = 1, y_ = 0;  ///< in the plane of both directions
   double from_peak_ = 0;  ///< slope of h, across the plane over the stretch

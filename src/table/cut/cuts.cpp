@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
+#include <utility>
 
 #include "brdf/model/evaluate.h"
 #include "integrate/aperture/mean_values.h"
@@ -22,6 +24,7 @@ constexpr std::array wanted_deg{10.0, 30.0, 45.0, 60.0, 75.0};
 struct Point {
   double deg;
   std::vector<double> data;
+  std::vector<double> uncertainty{}, left_out{};  ///< per channel, or empty
 };
 
 /// theta_o positive on the mirror side, as its direction for a wi at azimuth 0.
@@ -44,6 +47,8 @@ bool finish(Cut& cut,
             double phi_d,
             const Aperture& aperture,
             const BoundModel* fitted) {
+  std::size_t channels = 0;
+  for (const Point& p : points) channels = std::max(channels, p.data.size());
   const bool any = std::ranges::any_of(points, [](const Point& p) {
     return std::ranges::any_of(p.data, [](double v) { return std::isfinite(v); });
   });
@@ -51,7 +56,6 @@ bool finish(Cut& cut,
   const auto add = [&](double deg) {
     if (deg >= from_deg && deg < 90) points.push_back({deg, {}});
   };
-  const std::size_t channels = points[0].data.size();
   if (fitted) {
     for (double deg = from_deg; deg < 90; deg += 0.5) add(deg);
     add(peak_deg);
@@ -69,6 +73,14 @@ bool finish(Cut& cut,
     x.push_back(frame_angles(place(cut, phi_d, p.deg)));
     for (std::size_t c = 0; c < channels; ++c)
       cut.data[c].push_back(p.data.empty() ? none : p.data[c]);
+  }
+  for (const auto& [of, to] : {std::pair(&Point::uncertainty, &cut.uncertainty),
+                               std::pair(&Point::left_out, &cut.left_out)}) {
+    if (std::ranges::all_of(points, [&](const Point& p) { return (p.*of).empty(); })) continue;
+    to->resize(channels);
+    for (const Point& p : points)
+      for (std::size_t c = 0; c < channels; ++c)
+        (*to)[c].push_back((p.*of).empty() ? none : (p.*of)[c]);
   }
   if (!fitted) return true;
   const auto at = [&](std::size_t i) { return place(cut, phi_d, points[i].deg); };
@@ -113,6 +125,8 @@ std::vector<double> choose(const std::vector<double>& nodes) {
 std::vector<Cut> grid_cuts(const Table& table, const BoundModel* fitted) {
   const Grid& g = *table.grid();
   const Interpolator between(table);
+  std::optional<Interpolator> left_out;
+  if (table.left_out) left_out.emplace(*table.left_out);
   const auto nodes = [&](std::size_t axis) { return nodes_deg(g.axes[axis], g.bins); };
   const bool half = g.kind == Grid::Kind::half_difference;
   const double phi_d = half && g.axes[2].size == 1 ? g.axes[2].angle(0, g.bins) : 0;
@@ -144,7 +158,11 @@ std::vector<Cut> grid_cuts(const Table& table, const BoundModel* fitted) {
       const DirectionPair p = place(cut, phi_d, deg);
       Point point{deg, std::vector<double>(table.values.size(), none)};
       if (p.wi.z > 0 && p.wo.z > 0 && at_its_azimuth(g, p))
-        for (std::size_t c = 0; c < point.data.size(); ++c) point.data[c] = between(p, c);
+        for (std::size_t c = 0; c < point.data.size(); ++c) {
+          point.data[c] = between(p, c);
+          if (left_out)
+            point.left_out.push_back(std::isnan(point.data[c]) ? (*left_out)(p, c) : none);
+        }
       points.push_back(std::move(point));
     }
     if (finish(cut, std::move(points), slice ? 0 : at_deg, slice ? 0 : -89.5, phi_d, table.aperture,
@@ -176,12 +194,38 @@ std::vector<InPlane> in_plane_samples(const Table& table) {
   return out;
 }
 
+/// Adds the samples at an incident angle.
+void add_points(const Table& table,
+                const std::vector<InPlane>& samples,
+                double from_deg,
+                double to_deg,
+                bool left_out,
+                std::vector<Point>& points) {
+  const SampleAngles angles_of(table);
+  for (const auto& s : samples) {
+    if (s.theta_i_deg < from_deg || s.theta_i_deg > to_deg) continue;
+    const auto a = angles_of(s.sample);
+    Point point{s.theta_o_deg, {}};
+    for (const auto& channel : table.values)
+      (left_out ? point.left_out : point.data)
+          .push_back(mask(a, channel[s.sample]) == Mask::valid ? channel[s.sample] : none);
+    for (const auto& channel : table.errors)
+      if (!left_out) point.uncertainty.push_back(channel[s.sample]);
+    points.push_back(std::move(point));
+  }
+}
+
 std::vector<Cut> list_cuts(const Table& table, const BoundModel* fitted) {
-  auto samples = in_plane_samples(table);
-  if (fitted && fitted->model.anisotropic)
-    std::erase_if(samples, [&](const InPlane& s) {
-      return std::abs(std::remainder(table.list()->phi_i_deg[s.sample], 180)) > near_deg;
-    });
+  const auto samples_of = [&](const Table& t) {
+    auto all = in_plane_samples(t);
+    if (fitted && fitted->model.anisotropic)
+      std::erase_if(all, [&](const InPlane& s) {
+        return std::abs(std::remainder(t.list()->phi_i_deg[s.sample], 180)) > near_deg;
+      });
+    return all;
+  };
+  auto samples = samples_of(table);
+  const auto left_out = table.left_out ? samples_of(*table.left_out) : std::vector<InPlane>();
   std::ranges::stable_sort(samples, {}, &InPlane::theta_i_deg);
   // Incident angles closer than 0.1° are one; a table with hardly two samples at each has
   // directions at random.
@@ -194,20 +238,13 @@ std::vector<Cut> list_cuts(const Table& table, const BoundModel* fitted) {
   const std::vector<double> at =
       random ? std::vector(wanted_deg.begin(), wanted_deg.end()) : choose(distinct);
 
-  const SampleAngles angles_of(table);
   std::vector<Cut> cuts;
   for (const double at_deg : at) {
     Cut cut{"theta_i", at_deg, within, "theta_o", {}, {}, {}};
     std::vector<Point> points;
-    for (const auto& s : samples) {
-      if (s.theta_i_deg < at_deg - within || s.theta_i_deg > at_deg + (random ? within : 0.1))
-        continue;
-      const auto a = angles_of(s.sample);
-      Point point{s.theta_o_deg, {}};
-      for (const auto& channel : table.values)
-        point.data.push_back(mask(a, channel[s.sample]) == Mask::valid ? channel[s.sample] : none);
-      points.push_back(std::move(point));
-    }
+    const double from = at_deg - within, to = at_deg + (random ? within : 0.1);
+    add_points(table, samples, from, to, false, points);
+    if (table.left_out) add_points(*table.left_out, left_out, from, to, true, points);
     if (finish(cut, std::move(points), at_deg, -89.5, 0, table.aperture, fitted))
       cuts.push_back(std::move(cut));
   }

@@ -23,6 +23,10 @@ struct Cut {
   std::vector<double> deg;  ///< ascending, of the data and, with a model, of a dense grid
   std::vector<std::vector<double>> data;   ///< [channel][point], 1/sr; NaN: no valid sample here
   std::vector<std::vector<double>> model;  ///< likewise; NaN below the horizon; empty without one
+  std::vector<std::vector<double>>
+      uncertainty{};  ///< likewise, standard, of the data of a list; empty: none is stated
+  std::vector<std::vector<double>>
+      left_out{};  ///< likewise: what a mask left out of the table; empty: nothing
 };
 
 /// At most six cuts, only such that show data.  Data of grids are shown where the grid has nodes:

@@ -7,10 +7,13 @@
 ///               "unit": "degrees"|"radians", "forward": 180, "cosine": false, "scale": 1, "skip": 0}
 ///
 /// theta_i, phi_i, theta_o, phi_o, f or f_NAME (one for each channel), u_f or u_f_NAME (their standard uncertainties [1/sr];
-/// U_f where they are expanded by k = 2) and weight name a column: by its
+/// u_rel in parts of the value, u_percent in percent; U_… where they are expanded by k = 2) and weight name a column: by its
 /// name, by its number ("#1" is the first), or a constant in its place ("0").  What is not said is the
 /// column of that very name; an azimuth without one is 0.  Columns that nothing names are passed over.
 /// Where `channel` names a column, each of its values is a channel of its own (a wavelength a row).
+/// theta_h, phi_h, theta_d and phi_d stand in place of the four angles [Rusinkiewicz 1998].
+/// One angle may be "header": each column whose name holds a number has the values at that angle, as in a matrix; where
+/// columns have no names, the first row holds these numbers.
 ///
 ///   unit     of all angles
 ///   forward  phi_o − phi_i of the mirror direction [degrees]: 180, or 0 where azimuths are counted
@@ -21,7 +24,9 @@
 ///
 /// A zenith angle may be negative: the other side, azimuth + 180°.
 
+#include <array>
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -38,10 +43,32 @@ struct ColumnMap {
   std::size_t skip = 0;
 };
 
-/// Regular expression of what a column can be: an angle, f, f_NAME, u_f, u_f_NAME, weight or channel.
+/// Angles of light and viewer, then half and difference angles.
+inline constexpr std::array<std::string_view, 8> angle_roles{
+    "theta_i", "phi_i", "theta_o", "phi_o", "theta_h", "phi_h", "theta_d", "phi_d"};
+/// The word of the angle that the names of columns hold.
+inline constexpr std::string_view in_header = "header";
+
+/// Regular expression of what a column can be: an angle, f, f_NAME, an uncertainty of these, weight or channel.
 inline constexpr std::string_view role_pattern =
-    "^(theta_i|phi_i|theta_o|phi_o|weight|channel|([uU]_)?f|([uU]_)?f_[\\s\\S]+)$";
+    "^(theta_[iohd]|phi_[iohd]|weight|channel|(f|[uU]_(f|rel|percent))(_[\\s\\S]+)?)$";
 /// True for these.
-bool is_role(const std::string&);
+bool is_role(std::string_view);
+/// These, for people.
+inline constexpr std::string_view role_words =
+    "theta_i, phi_i, theta_o, phi_o, theta_h, phi_h, theta_d, phi_d, f, f_NAME, u_f, u_rel, "
+    "u_percent, weight, channel";
+
+/// Column with uncertainties: times the factor they are standard ones.
+struct UncertaintyRole {
+  std::string channel;  ///< "" for all
+  double factor;
+  bool relative;  ///< to the value, else [1/sr]
+};
+std::optional<UncertaintyRole> uncertainty_role(std::string_view role);
+
+/// The only number in a text such as "theta_i = 30°", with its sign where none of a word is before it; none where there are
+/// more.
+std::optional<double> only_number(std::string_view);
 
 }  // namespace gonio

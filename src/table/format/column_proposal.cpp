@@ -3,23 +3,32 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numbers>
 #include <string_view>
 #include <unordered_map>
+
+#include "table/format/delimited.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
-/// Letters and digits alone, small: "Theta_i [deg]" is "thetaideg".
+constexpr std::string_view decimal_digits = "0123456789";
+
+/// Letters and decimal_digits alone, small: "Theta_i [deg]" is "thetaideg", "θi" is "thetai".
 std::string plain(std::string_view name) {
   std::string s;
-  for (const char c : name)
+  for (std::size_t k = 0; k < name.size(); ++k) {
+    const char c = name[k];
+    for (const auto& [letter, word] : {std::pair("θ", "theta"), {"φ", "phi"}, {"ϕ", "phi"}})
+      if (name.substr(k).starts_with(letter)) s += word;
     if ('A' <= c && c <= 'Z')
       s += static_cast<char>(c - 'A' + 'a');
     else if (('a' <= c && c <= 'z') || ('0' <= c && c <= '9'))
       s += c;
+  }
   return s;
 }
 
@@ -62,14 +71,61 @@ constexpr std::array wavelengths{Words("lambda"),      Words("wavelength"),   Wo
                                  Words("lambdanm"),    Words("wavelengthnm"), Words("nm"),
                                  Words("wellenlaenge")};
 
-constexpr std::array per_solid_angle{Words("1sr"), Words("sr1"), Words("persr")};
+constexpr std::array per_solid_angle{Words("1sr"), Words("sr1"), Words("persr"), Words("sr")};
+constexpr std::array halves{Words("h"), Words("half")};
+constexpr std::array differences{Words("d"), Words("diff"), Words("difference")};
+constexpr std::array words_of_doubt{
+    Words("u"),           Words("uf"),     Words("ufr"),          Words("sigma"),
+    Words("std"),         Words("stdev"),  Words("sd"),           Words("stddev"),
+    Words("unc"),         Words("uncert"), Words("sem"),          Words("err"),
+    Words("uncertainty"), Words("fstd"),   Words("funcertainty"), Words("fstdev"),
+    Words("fsigma"),      Words("stderr"), Words("error"),        Words("ferr"),
+    Words("func"),        Words("se"),     Words("deviation"),    Words("unsicherheit")};
 
-enum Angle { theta_i, phi_i, theta_o, phi_o };
-constexpr std::array<std::string_view, 4> angle_names{"theta_i", "phi_i", "theta_o", "phi_o"};
+enum Angle { theta_i, phi_i, theta_o, phi_o, theta_h, phi_h, theta_d, phi_d };
+
+/// What a name says.
+struct Said {
+  std::optional<Angle> angle;
+  bool beside = false;                   ///< the angle counts only where no other name says it
+  bool zenith = false, azimuth = false;  ///< of neither direction
+};
+Said said_by(const std::string& name) {
+  std::string rest = name;
+  if (is_any(name, incidence)) return {theta_i, false, false, false};
+  for (const auto unit : units) take(rest, unit);
+  const bool zenith = take_any(rest, zeniths), azimuth = !zenith && take_any(rest, azimuths);
+  if (!zenith && !azimuth) {  // "in" and "out" are enough, "i" and "r" are not
+    if (rest.size() > 1 && is_any(rest, light)) return {theta_i, true, false, false};
+    if (rest.size() > 1 && is_any(rest, viewer)) return {theta_o, true, false, false};
+    return {{}, false, rest.empty() && !name.empty(), false};
+  }
+  for (const auto& [words, of] : {std::pair(std::span<const Words>(light), theta_i),
+                                  {std::span<const Words>(viewer), theta_o},
+                                  {std::span<const Words>(halves), theta_h},
+                                  {std::span<const Words>(differences), theta_d}})
+    if (is_any(rest, words))
+      return {static_cast<Angle>(of + (azimuth ? 1 : 0)), false, false, false};
+  return {{}, false, zenith && rest.empty(), azimuth};
+}
+
+/// Kind of an uncertainty, as a role begins: "u_f", "U_percent"; none of other names.
+std::optional<std::string> uncertainty_kind(const std::string& whole) {
+  std::string rest = plain(whole);
+  const bool expanded = take(rest, "k2") || take(rest, "expanded") || take(rest, "erweiterte") ||
+                        whole == "U" || whole.starts_with("U_") || whole.starts_with("U ") ||
+                        whole.starts_with("U(");
+  const bool percent = whole.find('%') != whole.npos || take(rest, "percent");
+  const bool relative = take(rest, "relative") || take(rest, "rel");
+  for (const std::string_view word : {"standard", "k1", "bsdf", "brdf", "value"}) take(rest, word);
+  take_any(rest, per_solid_angle);
+  if (!is_any(rest, words_of_doubt)) return {};
+  return std::string(expanded ? "U_" : "u_") + (percent ? "percent" : relative ? "rel" : "f");
+}
 
 struct Found {
-  std::array<std::optional<std::size_t>, 4> angle;
-  std::optional<std::size_t> zenith_of_neither, azimuth_of_neither, value, channel;
+  std::array<std::optional<std::size_t>, angle_roles.size()> angle;
+  std::optional<std::size_t> zenith_of_neither, azimuth_of_neither, value, channel, uncertainty;
 };
 
 void keep_first(std::optional<std::size_t>& slot, std::size_t column) {
@@ -78,39 +134,35 @@ void keep_first(std::optional<std::size_t>& slot, std::size_t column) {
 
 Found by_name(std::span<const ColumnSummary> columns) {
   Found found;
-  std::array<std::optional<std::size_t>, 4> beside;  // where no name says more
+  std::array<std::optional<std::size_t>, angle_roles.size()> beside;  // where no name says more
   std::size_t best = values.size();
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const std::string name = plain(columns[k].name);
-    std::string rest = name, bare = name;
+    std::string bare = name;
     take_any(bare, per_solid_angle);
     if (const auto v = std::ranges::find(values, bare); v < values.begin() + best) {
       best = static_cast<std::size_t>(v - values.begin());
       found.value = k;
     } else if (is_any(name, wavelengths)) {
       keep_first(found.channel, k);
-    } else if (is_any(name, incidence)) {
-      keep_first(found.angle[theta_i], k);
-    } else {
-      for (const auto unit : units) take(rest, unit);
-      const bool zenith = take_any(rest, zeniths), azimuth = !zenith && take_any(rest, azimuths);
-      if (!zenith && !azimuth) {  // "in" and "out" are enough, "i" and "r" are not
-        if (rest.size() > 1 && is_any(rest, light)) keep_first(beside[theta_i], k);
-        if (rest.size() > 1 && is_any(rest, viewer)) keep_first(beside[theta_o], k);
-        continue;
-      }
-      if (is_any(rest, light))
-        keep_first(found.angle[zenith ? theta_i : phi_i], k);
-      else if (is_any(rest, viewer))
-        keep_first(found.angle[zenith ? theta_o : phi_o], k);
-      else if (azimuth)
-        keep_first(found.azimuth_of_neither, k);
-      else if (rest.empty())
-        keep_first(found.zenith_of_neither, k);
+    } else if (uncertainty_kind(columns[k].name)) {
+      keep_first(found.uncertainty, k);
+    } else if (const Said said = said_by(name); said.angle) {
+      keep_first((said.beside ? beside : found.angle)[*said.angle], k);
+    } else if (said.azimuth) {
+      keep_first(found.azimuth_of_neither, k);
+    } else if (said.zenith) {
+      keep_first(found.zenith_of_neither, k);
     }
   }
   for (const auto a : {theta_i, theta_o})
     if (beside[a]) keep_first(found.angle[a], *beside[a]);
+  // A whole set of half and difference angles stands for all others.
+  if (found.angle[theta_h] && found.angle[theta_d]) {
+    for (const auto a : {theta_i, phi_i, theta_o, phi_o}) found.angle[a].reset();
+    return found;
+  }
+  for (const auto a : {theta_h, phi_h, theta_d, phi_d}) found.angle[a].reset();
   if (const auto k = found.zenith_of_neither) keep_first(found.angle[theta_o], *k);
   // The one azimuth of a file is that between the two directions; beside the viewer's it is the
   // light's.
@@ -119,21 +171,146 @@ Found by_name(std::span<const ColumnSummary> columns) {
   return found;
 }
 
-/// Pattern of the columns that are named after a wavelength, as "*nm"; where fewer than two are, none.
-std::optional<std::string> wavelength_pattern(std::span<const ColumnSummary> columns) {
-  std::optional<std::string> pattern;
-  std::size_t count = 0;
+/// Columns that are named after a wavelength, as "*nm".
+struct Bands {
+  std::string pattern, role;
+};
+/// Patterns of values, or of words_of_doubt, each of two columns or more; none where they are not plain.
+std::vector<Bands> bands_by_pattern(std::span<const ColumnSummary> columns) {
+  std::map<std::string, std::size_t> count;
   for (const auto& c : columns) {
-    const auto digit = c.name.find_first_of("0123456789");
+    const auto digit = c.name.find_first_of(decimal_digits);
     const auto end = c.name.find_first_not_of("0123456789.", digit);
     if (digit == c.name.npos || end == c.name.npos) continue;
-    const std::string unit = c.name.substr(end), of = c.name.substr(0, digit) + "*" + unit;
-    if (!unit.starts_with("nm") && !unit.starts_with(" nm")) continue;
-    if (pattern && *pattern != of) return {};
-    pattern = of;
-    ++count;
+    const std::string unit = c.name.substr(end);
+    if (unit.starts_with("nm") || unit.starts_with(" nm"))
+      ++count[c.name.substr(0, digit) + "*" + unit];
   }
-  return count >= 2 ? pattern : std::nullopt;
+  std::vector<Bands> all;
+  for (const auto& [pattern, times] : count) {
+    const auto kind = uncertainty_kind(pattern.substr(0, pattern.find('*')));
+    const bool repeats = std::ranges::any_of(
+        all, [&](const Bands& b) { return kind.has_value() == (b.role != "f_*"); });
+    if (times < 2 || repeats) return {};
+    all.insert(kind ? all.end() : all.begin(), {pattern, kind.value_or("f") + "_*"});
+  }
+  if (all.size() == 1 && all[0].role != "f_*") all.clear();
+  return all;
+}
+
+/// A table whose columns, but for the first, are the values at one angle each.
+struct Matrix {
+  Angle rows, columns;
+  std::vector<double> angles;  ///< of the columns
+  std::string guess;           ///< "" where the names say which is which
+};
+std::optional<Matrix> matrix_of(std::span<const ColumnSummary> columns) {
+  constexpr std::size_t least = 3;
+  if (columns.size() < least) return {};
+  const bool named = !columns[1].name.empty();
+  if (!named && columns.size() == least) return {};
+  Matrix m{theta_o, theta_i, {}, ""};
+  std::optional<Angle> of_columns, of_rows;
+  for (std::size_t k = 1; k < columns.size(); ++k) {
+    const auto& name = columns[k].name;
+    const auto number = !named            ? columns[k].first
+                        : number_in(name) ? number_in(name)
+                                          : only_number(name);
+    if (!number || std::abs(*number) > 360 || (k > 1 && *number <= m.angles.back())) return {};
+    m.angles.push_back(*number);
+    if (!named) continue;
+    std::string word = plain(name);
+    std::erase_if(word, [](char c) { return '0' <= c && c <= '9'; });
+    const Said said = said_by(word);
+    if (!word.empty() && !said.angle && !said.zenith && !said.azimuth) return {};
+    if (said.angle) of_columns = said.angle;
+    if (said.azimuth) of_columns = phi_o;
+  }
+  std::string corner = columns[0].name;  // "theta_o \ theta_i": of rows, then of columns
+  if (const auto bar = corner.find_first_of("\\/|"); bar != corner.npos) {
+    of_columns = said_by(plain(corner.substr(bar + 1))).angle;
+    corner.resize(bar);
+  }
+  of_rows = said_by(plain(corner)).angle;
+  // Numbers without names are a matrix only where both sides count angles in even steps.
+  const double step = m.angles[1] - m.angles[0];
+  const auto even = [&](std::size_t k) {
+    return std::abs(m.angles[k + 1] - m.angles[k] - step) < 1e-6 * std::abs(step);
+  };
+  if (!named)
+    for (std::size_t k = 0; k + 1 < m.angles.size(); ++k)
+      if (!even(k)) return {};
+  const double last = m.angles.back();
+  if (of_columns > phi_o || of_rows > phi_o) return {};
+  if (!of_columns && last > 90) of_columns = phi_o;
+  if (of_rows && !of_columns) of_columns = *of_rows == theta_o ? theta_i : theta_o;
+  if (of_columns && !of_rows) of_rows = *of_columns == theta_o ? theta_i : theta_o;
+  if (!of_rows) {
+    const bool across = m.angles.size() > columns[0].numbers || m.angles[0] < 0;
+    of_rows = across ? theta_i : theta_o, of_columns = across ? theta_o : theta_i;
+    m.guess =
+        fmt::format("rows are taken for {}, columns for {}: {}", angle_roles[*of_rows],
+                    angle_roles[*of_columns],
+                    m.angles[0] < 0 || columns[0].lowest < 0 ? "the viewer's angles have signs"
+                                                             : "the viewer's angles are more");
+  }
+  m.rows = *of_rows, m.columns = *of_columns;
+  return m.rows == m.columns ? std::nullopt : std::optional(m);
+}
+
+/// Incident angle that a text says in words and a number: "thetai30", "Angle of incidence: 30 deg"; "30deg" where `bare` allows.
+std::optional<double> incident_angle_in(std::string_view text, bool bare) {
+  const auto number = only_number(text);
+  if (!number || !(*number >= 0 && *number < 90)) return {};
+  const std::string word = plain(text.substr(0, text.find_first_of(decimal_digits))),
+                    unit = plain(text.substr(text.find_last_of(decimal_digits) + 1));
+  if (!unit.empty() && !is_any(unit, units)) return {};
+  if (word.empty()) return bare && !unit.empty() ? number : std::nullopt;
+  const Said said = said_by(word);
+  const bool plainly = !said.beside || !unit.empty() || word.starts_with("inc") ||
+                       word.ends_with("angle") || word.ends_with("winkel");
+  return said.angle == theta_i && plainly ? number : std::nullopt;
+}
+
+struct Constant {
+  double angle;
+  std::string from;
+};
+/// The one incident angle that the lines above the table, or the file's name, say.
+std::optional<Constant> incident_angle(const std::string& file, std::string_view head) {
+  for (int lines = 0; lines < 100 && !head.empty(); ++lines) {
+    const auto line = head.substr(0, head.find_first_of("\r\n"));
+    head.remove_prefix(std::min(line.size() + 1, head.size()));
+    if (const auto angle = incident_angle_in(line, false))
+      return Constant{*angle, fmt::format("by the line '{}'", line)};
+  }
+  std::string stem = file.substr(file.find_last_of("/\\") + 1);
+  if (const auto dot = stem.find_last_of('.'); dot != stem.npos && dot > 0) stem.resize(dot);
+  std::optional<double> found;
+  // A part between _, - or blanks, or some of them: "aoi_30", "theta_i_30"; "30deg", but not after
+  // "phi".
+  constexpr std::string_view marks = "_- ";
+  std::vector<std::size_t> begins{0};
+  for (std::size_t k = 1; k < stem.size(); ++k)
+    if (marks.find(stem[k - 1]) != marks.npos) begins.push_back(k);
+  begins.push_back(stem.size() + 1);
+  const auto part = [&](std::size_t from, std::size_t to) {
+    return std::string_view(stem).substr(begins[from], begins[to] - begins[from] - 1);
+  };
+  for (std::size_t k = 0; k + 1 < begins.size(); ++k) {
+    bool bare = true;
+    for (std::size_t from = k - std::min<std::size_t>(k, 2); from < k; ++from) {
+      const Said before = said_by(plain(part(from, k)));
+      bare = bare && !before.angle && !before.azimuth && !before.zenith;
+    }
+    for (std::size_t to = k + 1; to < std::min(k + 4, begins.size()); ++to) {
+      const auto angle = incident_angle_in(part(k, to), bare);
+      if (angle && found && *found != *angle) return {};
+      if (angle) found = angle;
+    }
+  }
+  if (!found) return {};
+  return Constant{*found, "by the file's name"};
 }
 
 double largest(const ColumnSummary& c) {
@@ -159,7 +336,9 @@ class References {
 
 }  // namespace
 
-ColumnProposal propose_columns(std::span<const ColumnSummary> columns) {
+ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
+                               const std::string& file,
+                               std::string_view head) {
   ColumnProposal p;
   Found found = by_name(columns);
   const auto range = [&](Angle a) {
@@ -180,41 +359,99 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns) {
 
   const References reference(columns);
   ColumnMap map;
-  for (const auto a : {theta_i, phi_i, theta_o, phi_o})
-    if (const auto k = found.angle[a]) map.columns.emplace_back(angle_names[a], reference(*k));
-  for (std::size_t k = 0; k < columns.size(); ++k)
-    if (columns[k].name.starts_with("f_") && is_role(columns[k].name) && !found.channel)
+  const bool half = found.angle[theta_h].has_value();
+  const auto matrix =
+      half || found.value.value_or(0) > 0 || (found.angle[theta_i] && found.angle[theta_o])
+          ? std::nullopt
+          : matrix_of(columns);
+  double header = 0;
+  if (matrix) {
+    found = {};
+    found.angle[matrix->rows] = 0;
+    header = std::max(std::abs(matrix->angles.front()), std::abs(matrix->angles.back()));
+    if (!matrix->guess.empty()) p.said.push_back(matrix->guess);
+  }
+  const auto in_matrix = [&](Angle a) { return matrix && matrix->columns == a; };
+  for (std::size_t a = 0; a < angle_roles.size(); ++a)
+    if (in_matrix(static_cast<Angle>(a)))
+      map.columns.emplace_back(angle_roles[a], in_header);
+    else if (const auto k = found.angle[a])
+      map.columns.emplace_back(angle_roles[a], reference(*k));
+  bool lacks = false;
+  for (const auto a : {theta_i, theta_o}) {
+    if (half || found.angle[a] || in_matrix(a)) continue;
+    if (const auto constant = a == theta_i ? incident_angle(file, head) : std::nullopt) {
+      map.columns.emplace_back(angle_roles[a], fmt::format("{:.9g}", constant->angle));
+      p.said.push_back(fmt::format("theta_i is {:.9g}° {} (else --map theta_i=…)", constant->angle,
+                                   constant->from));
+      continue;
+    }
+    lacks = true;
+    p.said.push_back(fmt::format("no column is called like {}{}", angle_roles[a],
+                                 a == theta_i ? "; one angle for all is --map theta_i=30" : ""));
+  }
+  // Angles without signs that leave out the azimuth are those of the side where the highlight is.
+  const bool constant = !half && !matrix && !found.angle[theta_i];
+  const auto rises = [&](Angle a) {
+    return !found.angle[a] || columns[*found.angle[a]].lowest >= 0;
+  };
+  if ((constant || matrix) && !found.angle[phi_i] && !found.angle[phi_o] && !in_matrix(phi_o) &&
+      rises(theta_i) && rises(theta_o) && (!matrix || matrix->angles.front() >= 0) && !lacks) {
+    map.columns.emplace_back("phi_o", "180");
+    p.said.emplace_back("no angle has a sign: all are taken for the side of the mirror direction");
+  }
+
+  for (std::size_t k = 0; k < columns.size() && !matrix; ++k)
+    if (columns[k].name.starts_with("f_") && is_role(columns[k].name) && !found.channel &&
+        !uncertainty_kind(columns[k].name))
       map.columns.emplace_back(columns[k].name, reference(k));
   const bool by_channel =
       std::ranges::any_of(map.columns, [](const auto& c) { return c.first.starts_with("f_"); });
-  const auto bands = by_channel || found.channel ? std::nullopt : wavelength_pattern(columns);
-  if (bands) {
-    map.columns.emplace_back("f_*", *bands);
-    found.value.reset();
-  }
+  const auto bands =
+      by_channel || found.channel || matrix ? std::vector<Bands>() : bands_by_pattern(columns);
+  for (const auto& [pattern, role] : bands) map.columns.emplace_back(role, pattern);
+  if (!bands.empty()) found.value.reset();
   if (found.value && !by_channel) map.columns.emplace_back("f", reference(*found.value));
   if (found.channel) map.columns.emplace_back("channel", reference(*found.channel));
+  if (found.uncertainty && bands.size() < 2) {
+    const auto& c = columns[*found.uncertainty];
+    const auto kind = *uncertainty_kind(c.name);
+    if (uncertainty_role(c.name)) {  // its own name says it
+    } else if (!(c.lowest > 0)) {
+      p.said.push_back(
+          fmt::format("{} is not above 0 everywhere: no standard uncertainty", c.name));
+    } else {
+      map.columns.emplace_back(kind, reference(*found.uncertainty));
+      p.said.push_back(fmt::format("{} is taken for the {} uncertainty of the values{}", c.name,
+                                   kind.starts_with("U") ? "expanded (k = 2)" : "standard",
+                                   kind.ends_with("percent") ? ", in percent"
+                                   : kind.ends_with("rel")   ? ", in parts"
+                                                             : ""));
+    }
+  }
 
-  for (const auto a : {theta_i, theta_o})
-    if (!found.angle[a])
-      p.said.push_back(fmt::format("no column is called like {}", angle_names[a]));
-  if (!found.value && !by_channel && !bands)
-    p.said.emplace_back("no column is called like a value, f or brdf");
-  if (!p.said.empty() && (!found.angle[theta_i] || !found.angle[theta_o])) return p;
-  if (!found.value && !by_channel && !bands) return p;
+  const bool has_values = found.value || by_channel || !bands.empty() || matrix;
+  if (!has_values) p.said.emplace_back("no column is called like a value, f or brdf");
+  if (lacks || !has_values) return p;
   if (found.value && plain(columns[*found.value].name).starts_with("cc")) {
     map.cosine = true;
     p.said.push_back(columns[*found.value].name + " is f cos(theta_o)");
   }
 
-  const double zenith = std::max(range(theta_i), range(theta_o));
-  const double any = std::max({zenith, range(phi_i), range(phi_o)});
+  double zenith = 0, any = header;
+  for (std::size_t a = 0; a < angle_roles.size(); ++a) {
+    const bool is_zenith = angle_roles[a].starts_with("theta_");
+    any = std::max(any, range(static_cast<Angle>(a)));
+    if (is_zenith) zenith = std::max(zenith, range(static_cast<Angle>(a)));
+    if (is_zenith && in_matrix(static_cast<Angle>(a))) zenith = std::max(zenith, header);
+  }
   constexpr double slack = 1e-3;
-  map.radians =
-      zenith <= std::numbers::pi / 2 + slack && any <= 2 * std::numbers::pi + slack && any > 0;
+  map.radians = !constant && zenith <= std::numbers::pi / 2 + slack &&
+                any <= 2 * std::numbers::pi + slack && any > 0;
   if (map.radians) p.said.push_back(fmt::format("no angle is above {:.4g}: radians", any));
   p.needed = map.radians || map.cosine ||
              std::ranges::any_of(map.columns, [](const auto& c) { return c.first != c.second; });
+  if (half) p.needed = true;
   p.map = std::move(map);
   return p;
 }

@@ -22,10 +22,14 @@ struct ColumnProposal {
 };
 
 /// By name a column is a zenith angle ("theta", "zenith", "aoi" …) or an azimuth ("phi", "azimuth" …) of the
-/// light ("i", "in", "source" …) or of the viewer ("o", "r", "out", "detector" …), a value ("f", "brdf" …) or a
-/// wavelength.  Ranges then correct it: where a zenith angle exceeds 90° and no azimuth does, they
-/// have changed names; angles that all stay within 2π, zenith angles within π/2, are
-/// radians.
-ColumnProposal propose_columns(std::span<const ColumnSummary>);
+/// light ("i", "in", "source" …) or of the viewer ("o", "r", "out", "detector" …), a half or a difference angle, a value
+/// ("f", "brdf" …), its uncertainty ("uBRDF", "std", "U (k=2)", "unc [%]") or a wavelength.  Ranges then correct it: where a
+/// zenith angle exceeds 90° and no azimuth does, they have changed names; angles that all stay within 2π, zenith angles within
+/// π/2, are radians.  Columns whose names are angles, one after the other, are a matrix.  An incident angle that no column has
+/// may stand in the file's name ("sample_30deg", "thetai30") or above the table ("# Angle of incidence: 30").
+/// \param file  its name  \param head  its beginning
+ColumnProposal propose_columns(std::span<const ColumnSummary>,
+                               const std::string& file = "",
+                               std::string_view head = "");
 
 }  // namespace gonio

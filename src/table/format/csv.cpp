@@ -11,8 +11,10 @@
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/numbers.h"
+#include "geometry/half_difference.h"
 #include "table/format/delimited.h"
 #include "table/format/in_memory.h"
+#include "table/format/measured_by.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -23,7 +25,9 @@
 namespace gonio {
 namespace {
 
-constexpr std::array<std::string_view, 4> kAngles{"theta_i", "phi_i", "theta_o", "phi_o"};
+/// Of light and viewer.
+constexpr std::span<const std::string_view, 4> kAngles(angle_roles.begin(), 4);
+constexpr std::size_t half_roles = 4;  ///< place among angle_roles
 constexpr std::uint64_t kMostBytes =
     std::uint64_t{25} * most_values;  ///< as a table's numbers are written
 constexpr const char* kHint = "where names or angles differ: gonio columns FILE --map …";
@@ -33,17 +37,6 @@ std::optional<std::string> channel_of(std::string_view name) {
   if (name == "f") return "f";
   if (name.starts_with("f_")) return std::string(name.substr(2));
   return {};
-}
-
-/// Channel, or none for all, of a column with standard uncertainties.
-std::optional<std::string> uncertainty_of(std::string_view role) {
-  if (role == "u_f" || role == "U_f") return "";
-  if (role.starts_with("u_f_") || role.starts_with("U_f_")) return std::string(role.substr(4));
-  return {};
-}
-/// Of metrology's letters, U is expanded by a factor of 2.
-double factor_of(std::string_view role) {
-  return role.starts_with("U") ? 0.5 : 1;
 }
 
 std::string_view without_blanks(std::string_view name) {
@@ -60,6 +53,10 @@ std::string role_of(std::string_view name) {
 
 bool is_angle(std::string_view name) {
   return std::ranges::find(kAngles, name) != kAngles.end();
+}
+/// Place among angle_roles, whose size for others.
+std::size_t angle_place(std::string_view role) {
+  return static_cast<std::size_t>(std::ranges::find(angle_roles, role) - angle_roles.begin());
 }
 
 using Text = std::vector<char, ArrayAllocator<char>>;
@@ -90,7 +87,7 @@ struct Column {
   std::optional<std::size_t> index;  ///< else the constant
   double constant = 0;
   bool is_value = channel_of(role).has_value();
-  bool is_uncertainty = uncertainty_of(role).has_value();
+  bool is_uncertainty = uncertainty_role(role).has_value();
   double low = 0, high = std::numeric_limits<double>::max();  ///< of what is not a value
 
   bool allows(double v) const {
@@ -174,14 +171,23 @@ class CsvReader {
     t.format = "csv";
     const bool small = angles_are_small();
     gather_columns(t);
-    to_conventions(std::get<DirectionList>(t.where));
+    if (header_) lay_out_matrix(t);
+    if (map_->radians)
+      for (auto& angle : angles_)
+        for (double& a : angle) a /= degree;
+    if (has("theta_h")) from_half_angles();
+    auto& [theta_i, phi_i, theta_o, phi_o, h, ph, d, pd] = angles_;
+    DirectionList list{std::move(theta_i), std::move(phi_i), std::move(theta_o), std::move(phi_o)};
+    if (!has("theta_h")) to_conventions(list);
+    t.where = std::move(list);
     to_f(t);
     if (channel_) gather_channels(t);
     if (small)
       t.warnings.emplace_back(
           "no zenith angle is above 1.6°: if they are radians, gonio columns FILE --radians says "
           "so");
-    if (needs_values_) expect_light_from_above(path_, *t.list());
+    // A grid of half and difference angles reaches below the horizon.
+    if (needs_values_ && !has("theta_h")) expect_light_from_above(path_, *t.list());
     warn_of_directions(t, forward_deg());
     return t;
   }
@@ -193,7 +199,8 @@ class CsvReader {
     const double turn = map_->radians ? degree * 180 : 180;
     if (role.starts_with("theta_")) c.low = -turn, c.high = turn;
     if (role.starts_with("phi_")) c.low = -2 * turn, c.high = 2 * turn;
-    if (map_->radians && is_angle(role)) c.low *= 1 + 1e-6, c.high *= 1 + 1e-6;
+    if (map_->radians && angle_place(role) < angle_roles.size())
+      c.low *= 1 + 1e-6, c.high *= 1 + 1e-6;
     if (c.is_uncertainty) c.low = std::numeric_limits<double>::min();
     if (!c.allows(constant) && !index)
       out_of_range(lines_, c, fmt::format("{:.6g}", constant), role);
@@ -218,7 +225,7 @@ class CsvReader {
     for (std::size_t k = 0; k < roles.size(); ++k) {
       const auto& name = roles[k];
       const auto channel = channel_of(name);
-      if (!channel && name != "weight" && !is_angle(name) && !uncertainty_of(name))
+      if (!channel && name != "weight" && !is_angle(name) && !uncertainty_role(name))
         lines_.fail(
             lines_.label(k), "an unknown column",
             fmt::format("theta_i, phi_i, theta_o, phi_o, f, f_NAME, u_f, u_f_NAME or weight; {}",
@@ -250,6 +257,15 @@ class CsvReader {
     std::set<std::size_t> used;
     const auto take = [&](std::size_t index) { return used.insert(index).second; };
     for (const auto& [role, column] : expanded()) {
+      if (column == in_header && angle_place(role) < angle_roles.size() &&
+          names.columns(column).empty()) {
+        if (header_)
+          throw bad_input(path_, "columns", fmt::format("{} and {} in the header", *header_, role),
+                          "one of them");
+        header_ = role;
+        roles_.insert(role);
+        continue;
+      }
       const auto index = find(names, role, column);
       if (index && !take(*index))
         lines_.fail(column, "a column that is two things", "one of them for " + role);
@@ -259,21 +275,35 @@ class CsvReader {
         add(role, index, index ? 0 : *number_in(column));
     }
     std::vector<std::string> wanted;
-    const bool values_named = has_values();
-    for (const auto& name : lines_.names())
-      if (auto role = role_of(name);
-          is_angle(role) || role == "weight" || (!values_named && channel_of(role)) ||
-          (uncertainty_of(role) && (!values_named || role.size() == 3 || has(role.substr(2)))))
+    const bool values_named = has_values() || header_, half = has("theta_h") || has("theta_d");
+    for (const auto& name : lines_.names()) {
+      auto role = role_of(name);
+      const auto u = uncertainty_role(role);
+      if (is_angle(role)
+              ? !half
+              : role == "weight" || (!values_named && channel_of(role)) ||
+                    (u && (!values_named || u->channel.empty() || has("f_" + u->channel))))
         wanted.push_back(std::move(role));
+    }
     expect_few_channels(wanted);
     for (const auto& role : wanted)
       if (const auto index = has(role) ? std::nullopt : find(names, role, role);
           index && take(*index))
         add(role, index);
-    for (const auto name : {"theta_i", "theta_o"})
+    using Names4 = std::array<const char*, 4>;
+    const auto [zenith, azimuth, other_zenith, other_azimuth] =
+        half ? Names4{"theta_h", "phi_h", "theta_d", "phi_d"}
+             : Names4{"theta_i", "phi_i", "theta_o", "phi_o"};
+    for (const auto* name : {zenith, other_zenith})
       if (!has(name)) throw_no_column(name, name);
-    for (const auto name : {"phi_i", "phi_o"})
+    for (const auto* name : {azimuth, other_azimuth})
       if (!has(name)) add(name, {}, 0);
+    for (const auto& c : columns_)
+      if (const auto at = angle_place(c.role);
+          at < angle_roles.size() && half != (at >= half_roles))
+        throw bad_input(path_, "columns", fmt::format("{} beside {}", c.role, zenith),
+                        "angles of light and viewer, or half and difference angles");
+    if (header_) add_matrix(used);
     if (!has_values()) throw_no_column("f", "f");
     std::set<std::string> channels;
     for (const auto& c : columns_)
@@ -283,12 +313,74 @@ class CsvReader {
       throw bad_input(path_, "columns", "channel beside several f_NAME", "channel beside one f");
   }
 
+  /// Each column that is nothing else, and has a number in its name, has the values at that angle.
+  void add_matrix(const std::set<std::size_t>& used) {
+    if (has_values())
+      throw bad_input(path_, "columns", "f beside an angle in the header", "one of them");
+    std::vector<std::string> names = lines_.names();
+    if (std::ranges::all_of(names, &std::string::empty) && lines_.next())
+      names.assign(lines_.fields().begin(), lines_.fields().end());
+    for (std::size_t k = 0; k < names.size(); ++k) {
+      const auto signed_number = number_in(without_blanks(names[k]));
+      const auto angle = signed_number ? signed_number : only_number(names[k]);
+      if (used.contains(k) || !angle) continue;
+      add(fmt::format("f_#{}", k + 1), k);
+      header_angles_.push_back(*angle);
+      const double limit =
+          (header_->starts_with("theta_") ? 180 : 360) * (map_->radians ? degree * (1 + 1e-6) : 1);
+      if (!(std::abs(*angle) <= limit))
+        lines_.fail(lines_.label(k), fmt::format("{:.6g}", *angle),
+                    bracketed(-limit, limit) + " in the header, for " + *header_);
+    }
+    if (header_angles_.empty())
+      lines_.fail("", "no column with a number in its name", "one angle each for " + *header_);
+  }
+
+  /// A row of a matrix becomes as many samples as it has values.
+  void lay_out_matrix(Table& t) {
+    const std::size_t many = header_angles_.size();
+    if (rows_ * many > most_values / 6)
+      throw bad_input(path_, "columns", fmt::format("{} rows of {} values", rows_, many),
+                      fmt::format("at most {} values", most_values / 6));
+    const auto spread = [&](std::vector<double>& x) {
+      std::vector<double> all;
+      all.reserve(x.size() * many);
+      for (const double v : x) all.insert(all.end(), many, v);
+      x = std::move(all);
+    };
+    for (auto& angle : angles_) spread(angle);
+    spread(t.weights);
+    auto& own = angles_[angle_place(*header_)];
+    for (std::size_t i = 0; i < rows_; ++i)
+      own.insert(own.end(), header_angles_.begin(), header_angles_.end());
+    for (auto* planes : {&t.values, &t.errors}) {
+      if (planes->empty()) continue;
+      Values all(rows_ * many);
+      for (std::size_t k = 0; k < many; ++k)
+        for (std::size_t i = 0; i < rows_; ++i) all[i * many + k] = (*planes)[k][i];
+      planes->assign(1, std::move(all));
+    }
+    t.channels = {"f"};
+  }
+
+  /// [degrees]
+  void from_half_angles() {
+    for (std::size_t k = 0; k < 4; ++k)
+      angles_[k] = std::vector<double>(angles_[half_roles].size());
+    for (std::size_t i = 0; i < angles_[half_roles].size(); ++i) {
+      const auto at = [&](std::size_t k) { return angles_[half_roles + k][i] * degree; };
+      const auto [wi, wo] = directions(HalfDifference{at(0), at(1), at(2), at(3)});
+      const std::array all{theta_of(wi), phi_of(wi), theta_of(wo), phi_of(wo)};
+      for (std::size_t k = 0; k < 4; ++k) angles_[k][i] = all[k] / degree;
+    }
+  }
+
   /// The map's words, with a column for each that a pattern such as f_*=*nm matches.
   std::vector<std::pair<std::string, std::string>> expanded() const {
     std::vector<std::pair<std::string, std::string>> all;
     for (const auto& [role, word] : map_->columns) {
       const auto star = word.find('*');
-      if ((role != "f_*" && role != "u_f_*" && role != "U_f_*") || star == word.npos) {
+      if (!role.ends_with("_*") || star == word.npos) {
         all.emplace_back(role, word);
         continue;
       }
@@ -422,7 +514,6 @@ class CsvReader {
   }
 
   void gather_columns(Table& t) {
-    std::array<std::vector<double>, kAngles.size()> angles;
     std::vector<std::size_t> plane(columns_.size());
     std::size_t uncertainties = 0;
     for (std::size_t k = 0; k < columns_.size(); ++k)
@@ -435,46 +526,41 @@ class CsvReader {
     t.values.resize(t.channels.size());
     std::vector<Values> stated(uncertainties);
     tbb::parallel_for(std::size_t{0}, columns_.size(), [&](std::size_t k) {
-      const auto angle = std::ranges::find(kAngles, columns_[k].role);
+      const auto angle = angle_place(columns_[k].role);
       if (columns_[k].is_value)
         t.values[plane[k]] = column<Values>(k);
       else if (columns_[k].is_uncertainty)
         stated[plane[k]] = column<Values>(k);
       else
-        (angle == kAngles.end() ? t.weights
-                                : angles[static_cast<std::size_t>(angle - kAngles.begin())]) =
-            column<std::vector<double>>(k);
+        (angle < angle_roles.size() ? angles_[angle] : t.weights) = column<std::vector<double>>(k);
     });
     rows_of_parts_.clear();
     give_uncertainties(stated, t);
-    auto& [theta_i, phi_i, theta_o, phi_o] = angles;
-    t.where =
-        DirectionList{std::move(theta_i), std::move(phi_i), std::move(theta_o), std::move(phi_o)};
   }
 
   /// Each channel has its own, or all have one's.
   void give_uncertainties(const std::vector<Values>& stated, Table& t) const {
     if (stated.empty()) return;
     std::vector<const Values*> of(t.channels.size());
-    std::vector<double> factor(t.channels.size(), 1);
+    std::vector<UncertaintyRole> role(t.channels.size());
     for (const bool for_all :
          {false, true}) {  // what is said of one channel beats what is said of all
       const auto before = of;
       std::size_t at = 0;
       for (const auto& c : columns_) {
-        const auto channel = uncertainty_of(c.role);
-        if (!channel) continue;
+        const auto of_column = uncertainty_role(c.role);
+        if (!of_column) continue;
         const Values* const own = &stated[at++];
-        if (channel->empty() != for_all) continue;
+        if (of_column->channel.empty() != for_all) continue;
         bool found = false;
         for (std::size_t k = 0; k < of.size(); ++k) {
-          if ((!for_all && *channel != t.channels[k]) || before[k]) continue;
+          if ((!for_all && of_column->channel != t.channels[k]) || before[k]) continue;
           if (of[k])
             throw bad_input(path_, "columns",
                             fmt::format("two uncertainties of f_{}", t.channels[k]),
                             "one, standard (u_f) or expanded (U_f)");
           of[k] = own;
-          factor[k] = factor_of(c.role);
+          role[k] = *of_column;
           found = true;
         }
         if (!found && !for_all)
@@ -488,7 +574,10 @@ class CsvReader {
         throw bad_input(path_, "columns", fmt::format("no uncertainty of f_{}", t.channels[k]),
                         "u_f, or one for each f_NAME");
       t.errors.push_back(*of[k]);
-      for (double& u : t.errors.back()) u *= factor[k];
+      const double least = role[k].relative ? least_sure_value(t.values[k]) : 0;
+      for (std::size_t i = 0; i < t.errors[k].size(); ++i)
+        t.errors[k][i] *=
+            role[k].factor * (role[k].relative ? std::max(std::abs(t.values[k][i]), least) : 1);
       for (std::size_t i = 0; i < t.errors[k].size(); ++i)
         if (std::isfinite(t.values[k][i]) && !(t.errors[k][i] > 0))
           throw bad_input(path_, fmt::format("sample {}", i + 1), "a value without uncertainty",
@@ -531,15 +620,13 @@ class CsvReader {
                                  const std::string& label) const {
     std::string expected =
         c.is_uncertainty ? "a standard uncertainty above 0" : bracketed(c.low, c.high);
-    if (is_angle(c.role)) expected += map_->radians ? " radians" : " degrees";
+    if (angle_place(c.role) < angle_roles.size())
+      expected += map_->radians ? " radians" : " degrees";
     if (c.role.starts_with("theta_")) expected += " (a zenith angle; perhaps columns are swapped)";
     lines.fail(label, field, expected);
   }
 
   void to_conventions(DirectionList& l) const {
-    if (map_->radians)
-      for (auto* angles : {&l.theta_i_deg, &l.phi_i_deg, &l.theta_o_deg, &l.phi_o_deg})
-        for (double& a : *angles) a /= degree;
     for (double& phi : l.phi_o_deg) phi += 180 - map_->forward_deg;
     const auto to_zenith = [](std::vector<double>& theta, std::vector<double>& phi) {
       for (std::size_t i = 0; i < theta.size(); ++i) {
@@ -649,6 +736,9 @@ class CsvReader {
   std::vector<std::size_t> channel_of_row_;
   std::vector<Rows> rows_of_parts_;  ///< in their order
   std::size_t rows_ = 0;
+  std::array<std::vector<double>, angle_roles.size()> angles_;  ///< [role][row]
+  std::optional<std::string> header_;  ///< the angle that the columns' names hold
+  std::vector<double> header_angles_;  ///< in the map's unit; of each value column
 };
 
 std::ptrdiff_t beyond(const std::vector<double>& angles, double limit) {
@@ -733,13 +823,14 @@ std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
   for (const auto& name : lines.names()) all.push_back({name});
   std::vector<std::set<std::string, std::less<>>> entries(all.size());
   const std::size_t most = std::clamp<std::size_t>((1 << 22) / (all.size() + 1), 1, 1000);
-  while (lines.next())
+  for (bool first = true; lines.next(); first = false)
     for (std::size_t k = 0; k < all.size(); ++k) {
       auto& c = all[k];
       const auto field = lines.fields()[k];
       if (entries[k].size() < most && !entries[k].contains(field)) entries[k].emplace(field);
       const auto v = number_in(field);
       if (!v || std::isnan(*v)) continue;
+      if (first) c.first = v;
       c.lowest = c.numbers ? std::min(c.lowest, *v) : *v;
       c.highest = c.numbers ? std::max(c.highest, *v) : *v;
       ++c.numbers;

@@ -6,7 +6,10 @@
 ///
 /// Numbers are written so that they read back as the same doubles, channels with the same names.
 
+#include <optional>
+#include <string>
 #include <string_view>
+#include <vector>
 
 #include "base/file.h"
 #include "table/format/column_map.h"
@@ -37,6 +40,7 @@ struct ColumnSummary {
   double lowest = 0, highest = 0;  ///< of these
   std::size_t distinct = 0;  ///< different entries; counted up to 1,000, and fewer where there are
                              ///< thousands of columns
+  std::optional<double> first = {};  ///< number of the first row
 };
 std::vector<ColumnSummary> csv_columns(InputFile&, std::size_t skip = 0);
 

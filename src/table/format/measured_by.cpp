@@ -10,6 +10,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/quantile.h"
 #include "base/text.h"
 #include "optics/spectrum.h"
 #include "table/format/wavelengths.h"
@@ -67,17 +68,29 @@ void check_aperture(const std::string& path, const Aperture& a) {
                       fmt::format("a full width from 0 to below {:g}°", widest));
 }
 
+void scale_values(Table& t, double factor) {
+  for (auto* planes : {&t.values, &t.errors})
+    for (auto& plane : *planes)
+      for (double& v : plane) v *= factor;
+  if (const auto between = t.between)
+    t.between = [between, factor](const DirectionPair& p, std::size_t c) {
+      return factor * between(p, c);
+    };
+}
+
+double least_sure_value(const Values& plane) {
+  constexpr double of_typical = 1e-3;
+  std::vector<double> sizes;
+  for (const double v : plane)
+    if (v > 0 && std::isfinite(v)) sizes.push_back(v);
+  return of_typical * (sizes.empty() ? 1 : median(sizes));
+}
+
 void take_reference(Table& t, double reflectance) {
   if (!(reflectance > 0 && reflectance <= 2))
     throw wrong_usage(fmt::format(
         "reference: found {:g}, expected a reflectance above 0, 2 at most", reflectance));
-  for (auto* planes : {&t.values, &t.errors})
-    for (auto& plane : *planes)
-      for (double& v : plane) v *= reflectance / std::numbers::pi;
-  if (const auto between = t.between)
-    t.between = [between, reflectance](const DirectionPair& p, std::size_t c) {
-      return between(p, c) * reflectance / std::numbers::pi;
-    };
+  scale_values(t, reflectance / std::numbers::pi);
   t.notes.emplace_back("reference", fmt::format("values × {:g}/π", reflectance));
 }
 

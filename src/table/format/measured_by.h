@@ -23,9 +23,16 @@ double width_of_cone(double solid_angle);
 /// Throws bad_input where a width is no number from 0 to below 60°.
 void check_aperture(const std::string& path, const Aperture&);
 
+/// Values and uncertainties times a factor.
+void scale_values(Table&, double factor);
+
 /// Values that are relative to a matte target of that reflectance become f = value R/π.
 /// Throws wrong usage where R is not above 0, or above 2.
 void take_reference(Table&, double reflectance);
+
+/// Value that a relative uncertainty counts at least [1/sr]: a thousandth of the median, as what is next to nothing is not next
+/// to certain.
+double least_sure_value(const Values&);
 
 /// What options say of these.
 inline constexpr const char* aperture_in_words =

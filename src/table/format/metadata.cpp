@@ -7,7 +7,6 @@
 
 #include "base/error.h"
 #include "base/json/reader.h"
-#include "base/quantile.h"
 #include "table/format/measured_by.h"
 #include "table/format/side_file.h"
 
@@ -93,8 +92,7 @@ double scale(const JsonReader& j) {
 }
 
 [[noreturn]] void refuse_key(const JsonReader& value) {
-  std::vector<std::string> keys{"theta_i", "phi_i", "theta_o",  "phi_o",  "f",
-                                "f_NAME",  "u_f",   "u_f_NAME", "weight", "channel"};
+  std::vector<std::string> keys{std::string(role_words)};
   std::ranges::copy(keys_of<ColumnMap>(), std::back_inserter(keys));
   value.fail(no_such_key(std::move(keys)));
 }
@@ -153,14 +151,6 @@ Json parse_side(const std::string& file, const std::string& text) {
 
 }  // namespace
 
-bool is_role(const std::string& name) {
-  constexpr std::array<std::string_view, 7> roles{"theta_i", "phi_i",  "theta_o", "phi_o",
-                                                  "f",       "weight", "channel"};
-  return std::ranges::find(roles, name) != roles.end() || name == "u_f" || name == "U_f" ||
-         (name.starts_with("f_") && name.size() > 2) ||
-         ((name.starts_with("u_f_") || name.starts_with("U_f_")) && name.size() > 4);
-}
-
 std::string side_path(const std::string& path) {
   return path + ".gonio.json";
 }
@@ -215,14 +205,8 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
     if (!(relative > 0 || floor > 0)) j.fail("relative or floor above 0");
     t.errors = t.values;
     for (auto& plane : t.errors) {
-      // Where no floor is said, a value next to nothing is not next to certain.
-      constexpr double of_typical = 1e-3;
-      std::vector<double> sizes;
-      for (const double v : plane)
-        if (v > 0 && std::isfinite(v)) sizes.push_back(v);
-      const double typical = sizes.empty() ? 1 : median(sizes);
-      for (double& v : plane)
-        v = std::hypot(relative * v, std::max(floor, of_typical * relative * typical));
+      const double least = std::max(floor, relative * least_sure_value(plane));
+      for (double& v : plane) v = std::hypot(relative * v, least);
     }
   }
   if (root.has("notes"))

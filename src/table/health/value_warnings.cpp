@@ -9,6 +9,7 @@
 
 #include "base/quantile.h"
 #include "base/text.h"
+#include "table/format/column_map.h"
 #include "table/health/rounding.h"
 
 #include <fmt/format.h>
@@ -27,11 +28,19 @@ std::string scaled_by(const Table& t, const char* what, double scale) {
 /// What values may be that return so many times the light.
 std::string unit_of(const Table& t, double light) {
   constexpr double slack = 1.1;
+  if (const auto note =
+          std::ranges::find(t.notes, "reference", [](const auto& n) { return n.first; });
+      note != t.notes.end()) {  // values × R/π
+    const double reflectance = only_number(note->second).value_or(1);
+    return light < slack * 100
+               ? fmt::format(": in percent of the target? (--reference {:.4g})", reflectance / 100)
+               : "";
+  }
   if (light < slack * pi) return scaled_by(t, "a radiance factor", 1 / pi);
   constexpr double dark = 0.03;  // albedo of what is hardly ever measured in percent
   if (light > dark * 100 * pi && light < slack * 100 * pi)
     return scaled_by(t, "a radiance factor in percent", 0.01 / pi);
-  return t.format == "csv" ? ": counts? (gonio columns FILE --scale of a white standard)" : "";
+  return ": counts? (gonio fit --scale free, or a white standard by --reference)";
 }
 
 /// Least value of each incident direction whose samples all are above 1/π, as a share of the light: no
@@ -76,8 +85,8 @@ void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& al
   constexpr double next_to_nothing = 5e-4;
   if (whole > 0 && whole < next_to_nothing)
     all.push_back(
-        fmt::format("the table returns {:.2g} of the light: a relative scale? (--model "
-                    "lambert+ggx/smith_ggx.correlated/schlick.weighted fits that, too)",
+        fmt::format("the table returns {:.2g} of the light: a relative scale? (gonio fit "
+                    "--scale free fits that, too)",
                     whole));
   if (const auto bright = bright_everywhere(t))
     all.push_back(fmt::format(
@@ -318,13 +327,15 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   std::vector<std::string> texts, cosine;
   const auto* c = warn_of_cosine(facts, cosine);
   warn_of_light(facts, c && c->incident + c->outgoing < 0, texts);
+  const std::size_t of_scale = texts.size();
   texts.insert(texts.end(), cosine.begin(), cosine.end());
   const std::size_t of_unit = texts.size();
   warn_of_zeros(facts, texts);
   warn_of_negative_channel(facts, texts);
   warn_of_full_detector(facts.table(), texts);
   std::vector<ValueWarning> all;
-  for (auto& text : texts) all.push_back({std::move(text), all.size() < of_unit});
+  for (auto& text : texts)
+    all.push_back({std::move(text), all.size() < of_unit, all.size() < of_scale});
   return all;
 }
 

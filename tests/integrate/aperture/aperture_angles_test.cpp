@@ -91,12 +91,13 @@ Off off(const Aperture& aperture, bool frame, const F& f) {
 
 TEST(ApertureAngles, AverageNarrowLobesAsManyDirectionsDo) {
   for (const Aperture aperture : {Aperture{0.7 * degree, 0.7 * degree}, Aperture{0, 0.3 * degree},
-                                  Aperture{6 * degree, 2 * degree}})
+                                  Aperture{6 * degree, 2 * degree},
+                                  Aperture{20 * degree, 8 * degree}, Aperture{40 * degree, 0}})
     for (const double alpha : {0.003, 0.01, 0.1, 0.5}) {
       if (alpha < (aperture.light + aperture.detector) / 8) continue;
       const auto [rms, most] =
           off(aperture, false, [&](const Angles<double>& x) { return lobe(x, alpha); });
-      EXPECT_LT(rms, 0.008) << aperture.light / degree << "° " << alpha;
+      EXPECT_LT(rms, 0.01) << aperture.light / degree << "° " << alpha;
       EXPECT_LT(most, 0.03) << aperture.light / degree << "° " << alpha;
     }
 }

@@ -2,6 +2,7 @@
 
 #include <limits>
 
+#include "table/sample_mask.h"
 #include "tables.h"
 
 #include <gtest/gtest.h>
@@ -66,6 +67,30 @@ TEST(FitPage, ShowsAParameterWithItsIntervalLimitOrReason) {
   EXPECT_NE(html.find("<b>Not known:</b> kd."), html.npos);
   for (const char* id : {"parameters", "data-and-model", "where-the-model-is-off", "input"})
     EXPECT_NE(html.find(std::string("<section id=\"") + id), html.npos) << id;
+}
+
+TEST(FitPage, ShowsRatiosUncertaintiesAndWhatIsLeftOut) {
+  FitDocument d;
+  d.model = "lambert";
+  EXPECT_EQ(html_of(d).find("95 % intervals by the stated"), std::string::npos);
+  d.ratios = {{"kd.g", "kd.r", 0.5, 0.49, 0.51}};
+  DirectionList l;
+  for (double deg = 5; deg < 90; deg += 5) {
+    l.theta_i_deg.push_back(20);
+    l.phi_i_deg.push_back(0);
+    l.theta_o_deg.push_back(deg);
+    l.phi_o_deg.push_back(180);
+  }
+  Table t = test::filled(l, test::glossy());
+  t.errors = t.values;
+  for (auto& plane : t.errors)
+    for (double& u : plane) u *= 0.1;
+  leave_out(t, "theta_o > 60");
+  const auto html = html_of(d, t);
+  EXPECT_NE(html.find("<code>kd.g</code> / <code>kd.r</code>"), html.npos);
+  EXPECT_NE(html.find("95 % intervals by the stated"), html.npos);
+  EXPECT_NE(html.find("class=\"bar\""), html.npos);
+  EXPECT_NE(html.find(">left out<"), html.npos);
 }
 
 TEST(FitPage, SaysInItsHeadingThatAModelDoesNotFit) {

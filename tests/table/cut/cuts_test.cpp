@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "table/sample_mask.h"
 #include "tables.h"
 
 #include <gtest/gtest.h>
@@ -137,6 +138,45 @@ TEST(Cuts, OfAListAreItsSamplesInThePlane) {
     if (cuts[1].deg[i] < 0) {
       EXPECT_TRUE(std::isnan(cuts[1].data[0][i]));
     }
+}
+
+TEST(Cuts, HaveUncertaintiesAndWhatAMaskLeavesOut) {
+  DirectionList l;
+  for (double deg = 5; deg < 90; deg += 5) {
+    l.theta_i_deg.push_back(20);
+    l.phi_i_deg.push_back(0);
+    l.theta_o_deg.push_back(deg);
+    l.phi_o_deg.push_back(180);
+  }
+  Table t = test::filled(l, glossy());
+  EXPECT_TRUE(make_cuts(t)[0].uncertainty.empty());
+  EXPECT_TRUE(make_cuts(t)[0].left_out.empty());
+  t.errors = t.values;
+  leave_out(t, "theta_o > 60");
+  const auto check = [&](const std::vector<Cut>& cuts) {
+    ASSERT_EQ(cuts.size(), 1U);
+    const Cut& cut = cuts[0];
+    ASSERT_FALSE(cut.left_out.empty());
+    for (std::size_t i = 0; i < cut.deg.size(); ++i) {
+      if (!cut.uncertainty.empty() && !std::isnan(cut.data[0][i])) {
+        EXPECT_EQ(cut.uncertainty[0][i], cut.data[0][i]);
+      }
+      EXPECT_FALSE(std::isfinite(cut.data[0][i]) && cut.deg[i] > 60);
+      EXPECT_FALSE(std::isfinite(cut.left_out[0][i]) && cut.deg[i] <= 60);
+    }
+    EXPECT_EQ(points(cut.data[0]), 12U);
+    EXPECT_EQ(points(cut.left_out[0]), 5U);
+  };
+  check(make_cuts(t));
+  check(make_cuts(t, glossy()));
+  Table grid = test::filled(test::in_out_grid(), glossy());
+  const auto all = make_cuts(grid);
+  leave_out(grid, "theta_o > 60");
+  const auto cuts = make_cuts(grid);
+  ASSERT_EQ(cuts.size(), all.size());
+  for (std::size_t k = 0; k < cuts.size(); ++k)
+    EXPECT_EQ(points(cuts[k].data[0]) + points(cuts[k].left_out[0]), points(all[k].data[0]));
+  EXPECT_GT(points(cuts[0].left_out[0]), 0U);
 }
 
 TEST(Cuts, OfScatteredDirectionsSayHowFarTheirDataAreOff) {

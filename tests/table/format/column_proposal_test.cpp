@@ -126,6 +126,33 @@ TEST(ColumnProposal, CosineCorrectedValuesAndColumnsOfWavelengthsAreRecognised) 
   EXPECT_FALSE(q.map->cosine);
 }
 
+TEST(ColumnProposal, UncertaintiesAreRecognised) {
+  using Case = std::pair<const char*, const char*>;
+  for (const auto& [name, role] :
+       {Case{"uBRDF", "u_f"}, Case{"u_brdf [1/sr]", "u_f"}, Case{"sigma", "u_f"},
+        Case{"std", "u_f"}, Case{"unc", "u_f"}, Case{"uncertainty", "u_f"}, Case{"f_std", "u_f"},
+        Case{"standard uncertainty (k=1)", "u_f"}, Case{"U (k=2)", "U_f"}, Case{"U", "U_f"},
+        Case{"U_brdf", "U_f"}, Case{"expanded uncertainty", "U_f"}, Case{"unc [%]", "u_percent"},
+        Case{"U (k=2) [%]", "U_percent"}, Case{"rel. unc", "u_rel"},
+        Case{"relative uncertainty", "u_rel"}}) {
+    const std::vector<ColumnSummary> columns{column("aoi", 0, 75), column("theta_s", 0, 80),
+                                             column("brdf", 0, 9), column(name, 0.01, 2)};
+    const auto p = propose_columns(columns);
+    ASSERT_TRUE(p.map) << name;
+    EXPECT_EQ(p.map->columns,
+              (Map{{"theta_i", "aoi"}, {"theta_o", "theta_s"}, {"f", "brdf"}, {role, name}}))
+        << name;
+    auto zero = columns;
+    zero[3].lowest = 0;
+    EXPECT_EQ(propose_columns(zero).map->columns.size(), 3U) << name << ": it would be refused";
+  }
+  const std::vector<ColumnSummary> bands{column("aoi", 0, 75),  column("theta_s", 0, 80),
+                                         column("390nm", 0, 1), column("u_390nm", 0.1, 1),
+                                         column("400nm", 0, 1), column("u_400nm", 0.1, 1)};
+  EXPECT_EQ(propose_columns(bands).map->columns,
+            (Map{{"theta_i", "aoi"}, {"theta_o", "theta_s"}, {"f_*", "*nm"}, {"u_f_*", "u_*nm"}}));
+}
+
 TEST(ColumnProposal, ColumnsOfOneNameGoByTheirNumber) {
   const std::vector<ColumnSummary> columns{column("aoi", 0, 75), column("theta_s", 0, 80),
                                            column("brdf", 0, 1), column("brdf", 0, 2)};

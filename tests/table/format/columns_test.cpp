@@ -494,6 +494,46 @@ TEST(ColumnMap, OfAPatternTakesEveryColumnThatIsLikeIt) {
                    "two channels named 1");
 }
 
+TEST(ColumnMap, TakesUncertaintiesInPartsOfTheValue) {
+  const std::string text = "in,out,a,b,s,t\n30,20,2,4,10,5\n30,40,1,0,10,5\n30,50,1,4,10,5\n",
+                    angles = R"("theta_i":"in","theta_o":"out",)";
+  const auto errors = [&](const std::string& map) { return read(text, angles + map).errors; };
+  EXPECT_EQ(errors(R"("f":"a","u_percent":"s")")[0], (Values{0.2, 0.1, 0.1}));
+  EXPECT_EQ(errors(R"("f":"a","U_percent":"s")")[0], (Values{0.1, 0.05, 0.05}));
+  EXPECT_EQ(errors(R"("f":"a","u_rel":"0.25")")[0], (Values{0.5, 0.25, 0.25}));
+  const auto two = errors(R"("f_a":"a","f_b":"b","u_percent_a":"s","u_percent_b":"t")");
+  EXPECT_EQ(two[0][0], 0.2);
+  EXPECT_EQ(two[1], (Values{0.2, 0.05 * 4e-3, 0.2})) << "nothing is not known for certain";
+}
+
+TEST(ColumnMap, LaysOutAMatrix) {
+  const std::string map = R"("theta_o":"#1","theta_i":"header","phi_o":"180")";
+  const Lines laid{"10 0 0 180: 1", "20 0 0 180: 2", "10 0 5 180: nan", "20 0 5 180: 4"};
+  EXPECT_EQ(samples(read("x;10°;20°\n0;1;2\n5;-;4\n", map)), laid);
+  EXPECT_EQ(samples(read(";10;20\n0;1;2\n5;-;4\n", map)), laid) << "no names";
+  EXPECT_EQ(
+      samples(read("x;0.5;-0.5\n1;1;2\n", R"("theta_i":"#1","theta_o":"header","unit":"radians")")),
+      (Lines{"57.2958 0 28.6479 0: 1", "57.2958 0 28.6479 180: 2"}));
+  const Table t =
+      read("x;u;30;200\n10;0.5;1;2\n", R"("theta_o":"x","theta_i":"5","phi_o":"header","u_f":"u")");
+  EXPECT_EQ(samples(t), (Lines{"5 0 10 30: 1", "5 0 10 200: 2"}));
+  EXPECT_EQ(t.errors, (std::vector<Values>{{0.5, 0.5}}));
+  expect_complaint("x;10;200\n0;1;2\n", map,
+                   "column 200: found 200, expected a number in [-180, 180] in the header");
+}
+
+TEST(ColumnMap, TakesHalfAndDifferenceAngles) {
+  const std::string map = R"("theta_h":"h","theta_d":"d","phi_d":"p","f":"f")";
+  EXPECT_EQ(samples(read("h,d,p,f,theta_i\n0,30,0,1,7\n20,30,90,2,7\n", map))[0],
+            "30 0 30 -180: 1");
+  const Table t = read("h,d,p,f\n20,30,90,2\n80,60,0,1\n85,60,0,1\n", map);
+  const auto a = SampleAngles(t)(0);
+  EXPECT_NEAR(a.noh, std::cos(20 * degree), 1e-12);
+  EXPECT_NEAR(a.voh, std::cos(30 * degree), 1e-12);
+  EXPECT_NEAR(a.nol, a.nov, 1e-12) << "phi_d 90°";
+  EXPECT_EQ(inspect(t).masked[static_cast<std::size_t>(Mask::below_horizon)], 2U);
+}
+
 TEST(CsvFile, WarnsOfSwappedColumns) {
   std::string text = kPlain;
   for (int phi = 0; phi < 180; phi += 10)

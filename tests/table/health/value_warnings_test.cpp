@@ -7,6 +7,7 @@
 
 #include "brdf/model/evaluate.h"
 #include "table/example.h"
+#include "table/format/measured_by.h"
 #include "tables.h"
 
 #include <gtest/gtest.h>
@@ -81,6 +82,15 @@ TEST(ValueWarnings, SayThatMoreLightLeavesThanArrivesHoweverFarRoundTheSamplesGo
       says(said_of(painted(180), [](const auto&, double f) { return 1e5 * f; }), "counts?"));
   EXPECT_TRUE(says(said_of(painted(180), [](const auto&, double f) { return 1e-4 * f; }),
                    "relative scale?"));
+}
+
+TEST(ValueWarnings, NameTheReferenceOfValuesInPercentOfATarget) {
+  Table t = painted(180);
+  for (double& f : t.values[0])
+    f *= 100 * M_PI / 0.99;  // what a target of 0.99 is worth, in percent
+  take_reference(t, 0.99);
+  EXPECT_TRUE(says(said_of(t, as_it_is), "in percent of the target? (--reference 0.0099)"));
+  EXPECT_FALSE(says(said_of(t, as_it_is), "--scale"));
 }
 
 TEST(ValueWarnings, SayWhichCosineIsLeftIn) {

@@ -1,0 +1,164 @@
+#include "fitting/judge/free_scale.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <optional>
+
+#include "base/error.h"
+#include "base/quantile.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/model/spec.h"
+#include "fitting/judge/uncertainty.h"
+#include "fitting/solve/problem.h"
+#include "geometry/half_difference.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+namespace {
+
+/// True of kd, weight, and those of another lobe.
+bool is_linear(const std::string& name) {
+  return name == "kd" || name == "weight" || name.starts_with("weight_");
+}
+
+void multiply(BoundModel& b, double factor) {
+  for (const auto& p : b.model.parameters)
+    if (is_linear(p.name))
+      for (std::size_t c = 0; c < p.count; ++c) b.values[p.first + c] *= factor;
+}
+
+/// A value that the factor is on.
+struct Linear {
+  std::string name;
+  double value, relative_error, t;
+};
+
+}  // namespace
+
+FitOptions with_weights(FitOptions o) {
+  const std::string model = o.model;
+  for (const auto* settings : {&o.fixed, &o.bounds})
+    for (const auto& s : *settings)
+      if (is_linear(s.name))
+        throw wrong_usage(fmt::format("scale free: found {} given, expected it open", s.name));
+  auto parts = parse_spec(compose(model, 1).spec);
+  std::vector<std::string> words;
+  for (auto& part : parts) {
+    if (part.size() == 3 && !part[2].ends_with(".weighted")) part[2] += ".weighted";
+    words.push_back(fmt::to_string(fmt::join(part, "/")));
+  }
+  const auto refuse = [&] {
+    return wrong_usage(fmt::format(
+        "scale free: found model '{}', expected a diffuse term that is linear in kd, and lobes "
+        "with a Fresnel term that has a .weighted form (schlick, dielectric, conductor)",
+        model));
+  };
+  const auto weighted = fmt::to_string(fmt::join(words, "+"));
+  try {
+    const BoundModel whole = bind_model(weighted, {}, 1);
+    BoundModel half = whole;
+    multiply(half, 0.5);
+    for (const double theta : {0.1, 0.7, 1.3}) {
+      const std::vector a{frame_angles({direction(theta, 0), direction(0.5, 2.5)})};
+      const double f = evaluate(whole, a)[0][0];
+      constexpr double rounding = 1e-9;
+      if (!(std::abs(evaluate(half, a)[0][0] - f / 2) <= rounding * f)) throw refuse();
+    }
+  } catch (const Error&) {
+    throw refuse();
+  }
+  return options_for(std::move(o), weighted);
+}
+
+std::vector<std::string> with_weights(const FitOptions& o, std::span<const std::string> models) {
+  std::vector<std::string> all;
+  std::optional<Error> refused;
+  for (const auto& model : models) try {
+      FitOptions of = o;
+      of.model = model;
+      of = with_weights(std::move(of));
+      if (std::ranges::find(all, of.model) == all.end()) all.push_back(of.model);
+    } catch (const Error& e) {
+      refused = e;
+    }
+  if (all.empty() && refused) throw Error(*refused);
+  return all;
+}
+
+double working_factor(const Table& t) {
+  constexpr double small = 0.01;  // albedo of the brightest channel away from its highlight
+  double brightest = 0;
+  for (const auto& plane : t.values) {
+    std::vector<double> sizes;
+    for (const double v : plane)
+      if (v > 0 && std::isfinite(v)) sizes.push_back(v);
+    if (!sizes.empty()) brightest = std::max(brightest, median(sizes));
+  }
+  return brightest > 0 ? small / (std::numbers::pi * brightest) : 1;
+}
+
+bool is_scale_too_large(const BoundModel& b) {
+  constexpr double near_end = 0.9;
+  return std::ranges::any_of(b.model.parameters, [&](const auto& p) {
+    return is_linear(p.name) &&
+           std::any_of(b.values.begin() + static_cast<std::ptrdiff_t>(p.first),
+                       b.values.begin() + static_cast<std::ptrdiff_t>(p.first + p.count),
+                       [](double v) { return v > near_end; });
+  });
+}
+
+void leave_scale_open(FitDocument& d, BoundModel& fitted, double factor) {
+  std::vector<Linear> all;
+  auto& ratios = d.ratios.emplace();
+  for (auto& p : d.parameters) {
+    if (!is_linear(p.name)) continue;
+    for (std::size_t c = 0; c < p.value.size(); ++c) {
+      const double value = p.value[c], error = p.std_error[c];
+      if (p.status[c] == ParameterStatus::at_bound && value == 0) continue;  // whatever the scale
+      const auto name = p.value.size() > 1 ? p.name + "." + d.channels[c] : p.name;
+      if (p.status[c] == ParameterStatus::free && error > 0 && value > 0)
+        all.push_back({name, value, error / value, (p.ci95_high[c] - p.ci95_low[c]) / (2 * error)});
+      if (p.status[c] != ParameterStatus::not_identifiable)
+        p.reason[c] = "only up to one factor: the scale is free";
+      p.status[c] = ParameterStatus::not_identifiable;
+      for (auto* x : {&p.value, &p.std_error, &p.ci95_low, &p.ci95_high, &p.limit})
+        (*x)[c] = not_known;
+    }
+  }
+  const auto correlation = [&](const std::string& a, const std::string& b) {
+    const auto i = std::ranges::find(d.free_names, a), j = std::ranges::find(d.free_names, b);
+    if (i == d.free_names.end() || j == d.free_names.end()) return -1.0;  // the widest
+    const double rho = d.correlations[static_cast<std::size_t>(i - d.free_names.begin())]
+                                     [static_cast<std::size_t>(j - d.free_names.begin())];
+    return std::isnan(rho) ? -1 : rho;
+  };
+  const auto surest = std::ranges::min_element(all, {}, &Linear::relative_error);
+  for (auto x = all.begin(); x != all.end(); ++x) {
+    if (x == surest) continue;
+    const double a = x->relative_error, b = surest->relative_error;
+    const double spread =
+        std::max(x->t, surest->t) *
+        std::sqrt(std::max(0.0, a * a + b * b - 2 * correlation(x->name, surest->name) * a * b));
+    const double ratio = x->value / surest->value;
+    ratios.push_back(
+        {x->name, surest->name, ratio, ratio * std::exp(-spread), ratio * std::exp(spread)});
+  }
+  multiply(fitted, 1 / factor);
+  d.residuals.rms /= factor;
+  for (auto& band : d.residuals.bands) band.rms /= factor;
+  d.log_offset /= factor;
+  d.physics.theta_i_deg.clear();
+  d.physics.model_albedo.clear();
+  d.physics.data_albedo.clear();
+  d.warnings.insert(
+      d.warnings.begin(),
+      "the scale is free: kd and weights are known up to one factor, so are colours' brightness "
+      "and albedo; ratios, widths and Fresnel curves do not depend on it");
+}
+
+}  // namespace gonio

@@ -1,0 +1,35 @@
+#pragma once
+/// \file
+/// Fits of tables whose values are known up to one factor: counts of a detector, voltages, a reference that nobody wrote down.
+///
+/// A factor on all values is one on kd and on a lobe's weight, and changes no width and no Fresnel curve. So each lobe gets a
+/// weight, the table is brought to a scale at which weights and kd lie within their ranges, and what is fitted of them stands only
+/// relative to each other.
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "brdf/model/model.h"
+#include "fitting/result/document.h"
+#include "fitting/solve/options.h"
+#include "table/table.h"
+
+namespace gonio {
+
+/// The model with a weight for each lobe, as schlick.weighted.  Throws wrong usage where a factor on all values is none on the
+/// model's kd and weights, and where one of these is held.
+FitOptions with_weights(FitOptions);
+/// Those of several models that can have weights, each once.  Throws wrong usage where none can.
+std::vector<std::string> with_weights(const FitOptions&, std::span<const std::string> models);
+
+/// What values are multiplied by so that a fit's kd and weights lie within their ranges.
+double working_factor(const Table&);
+/// True where one of them ended next to the end of its range: a smaller factor may serve.
+bool is_scale_too_large(const BoundModel& fitted);
+
+/// Puts kd and weights, and the fit's RMS, on the scale of the table that was multiplied; takes their values and the albedo out of
+/// the document; adds their ratios.
+void leave_scale_open(FitDocument&, BoundModel& fitted, double factor);
+
+}  // namespace gonio
