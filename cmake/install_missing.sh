@@ -173,8 +173,21 @@ install_blender() {
   echo "Without Blender from PyPI, for Python 3.11 on x86-64: exported glTF is not looked at in it."
 }
 
-# build PRESET [OPTIONS of cmake --build]
+# build PRESET [OPTIONS of cmake --build]: with the time left on a terminal
 build() {
   cmake --preset "$1" --log-level=WARNING
-  cmake --build --preset "$@"
+  if [ ! -t 1 ]; then
+    cmake --build --preset "$@"
+    return
+  fi
+  local line
+  NINJA_STATUS='step %f %t %e ' cmake --build --preset "$@" | while IFS= read -r line; do
+    if [[ $line =~ ^step\ ([0-9]+)\ ([0-9]+)\ ([0-9]+) ]]; then
+      local done=${BASH_REMATCH[1]} all=${BASH_REMATCH[2]} seconds=${BASH_REMATCH[3]}
+      printf '\r\033[K%d of %d files are built, %d min left' "$done" "$all" $((seconds * (all - done) / (done ? done : 1) / 60 + 1))
+      [ "$done" != "$all" ] || echo
+    else
+      printf '\r\033[K%s\n' "$line"
+    fi
+  done
 }

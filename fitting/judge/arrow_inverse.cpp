@@ -40,13 +40,13 @@ double ArrowInverse::along(std::size_t i, std::size_t head) const {
 }
 
 std::vector<double> ArrowInverse::times(std::span<const double> v) const {
-  const Eigen::Map<const Column> all(v.data(), index(v.size()));
-  Column x = gonio::times(uk_, transposed_times(u_, all));
+  const Eigen::Map<const VectorXd> all(v.data(), index(v.size()));
+  VectorXd x = gonio::times(uk_, transposed_times(u_, all));
   for (std::size_t a = 0; a < inverses_.size(); ++a) {
     const auto& own = layout_->arms()[a];
-    Column part(index(own.size()));
+    VectorXd part(index(own.size()));
     for (std::size_t k = 0; k < own.size(); ++k) part[index(k)] = v[own[k]];
-    const Column solved = gonio::times(inverses_[a], part);
+    const VectorXd solved = gonio::times(inverses_[a], part);
     for (std::size_t k = 0; k < own.size(); ++k) x[index(own[k])] += solved[index(k)];
   }
   return {x.begin(), x.end()};

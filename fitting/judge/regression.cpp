@@ -32,10 +32,10 @@ struct Inverse {
   std::size_t rank = 0;
   explicit Inverse(const Columns& a) : inverse(a) {
     if (a.size() == 0) return;  // nothing is free
-    const Column scale =
+    const VectorXd scale =
         a.diagonal().unaryExpr([](double d) { return d > 0 ? 1 / std::sqrt(d) : 0; });
     const auto eigen = eigenpairs(scaled(scale, a, scale));
-    const Column roots =
+    const VectorXd roots =
         eigen.values.unaryExpr([](double l) { return l > 1e-10 ? 1 / std::sqrt(l) : 0; });
     inverse = times_transposed(scaled(scale, eigen.vectors, roots));
     rank = static_cast<std::size_t>((roots.array() > 0).count());
@@ -66,11 +66,11 @@ class Scores {
     return sums_.data() + unit * width_;
   }
   double count() const { return std::accumulate(counts_.begin(), counts_.end(), 0.0); }
-  Eigen::Map<const Column> at(std::size_t k) const {
-    return Eigen::Map<const Column>(sums_.data() + k * width_, index(width_));
+  Eigen::Map<const VectorXd> at(std::size_t k) const {
+    return Eigen::Map<const VectorXd>(sums_.data() + k * width_, index(width_));
   }
-  Column sum() const {
-    Column u = Column::Zero(index(width_));
+  VectorXd sum() const {
+    VectorXd u = VectorXd::Zero(index(width_));
     for (std::size_t k = 0; k < counts_.size(); ++k) u += at(k);
     return u;
   }
@@ -95,7 +95,7 @@ class Projected {
       : left_(left), width_(width), gains_(gains) {
     const auto n = index(left.count), q = index(width);
     Columns a = Columns::Zero(n, n), c = Columns::Zero(n, q);
-    Column g = Column::Zero(n);
+    VectorXd g = VectorXd::Zero(n);
     for (const auto& v : left.values) {
       const auto& functions = left.units[v.unit].functions;
       const double weighted = v.active * v.change / v.variance;
@@ -144,7 +144,7 @@ class Projected {
   std::size_t width_, rank_ = 0;
   bool gains_;
   Columns inverse_, functions_;
-  Column step_;
+  VectorXd step_;
 };
 
 /// Cells, each one function of its own: 1 in it and 0 elsewhere, projected as the smooth ones are.
@@ -157,11 +157,11 @@ void judge_cells(const Left& left,
   const auto n = index(left.count);
   struct Cell {
     double sum = 0, weight = 0, squares = 0;
-    Column with_function, with_change, with_score;  ///< products with the derivatives
+    VectorXd with_function, with_change, with_score;  ///< products with the derivatives
     double scores = 0;
   };
   std::array<Cell, cells> all;
-  for (auto& c : all) c.with_function = c.with_change = c.with_score = Column::Zero(n);
+  for (auto& c : all) c.with_function = c.with_change = c.with_score = VectorXd::Zero(n);
   const std::size_t units = shared ? left.angles : left.units.size();
   Scores moves(units, left.count);                                              // Σ j r
   std::vector<std::pair<double, double>> scores(units * (shared ? cells : 1));  // count, score
@@ -197,7 +197,7 @@ void judge_cells(const Left& left,
   double tested = 0, least = 1, squares = 0, weights = 0;
   for (std::size_t k = 0; k < cells; ++k) {
     const Cell& c = all[k];
-    const Column taken_up = projected.inverse() * c.with_function;
+    const VectorXd taken_up = projected.inverse() * c.with_function;
     const double weight = c.weight - taken_up.dot(c.with_change);
     const double noise =
         c.squares - 2 * taken_up.dot(c.with_score) + taken_up.dot(move_squares * taken_up);
@@ -298,7 +298,7 @@ Regression regress(Left left, Errors errors) {
   Scores scores(shared ? left.angles : units, width);
   std::vector<double> r(left.values.size()), of_unit(units), z(width);
   Columns noise = Columns::Zero(q, q);  // of the scores, if the variances are right
-  Column length = Column::Zero(q);      // of each function before its projection
+  VectorXd length = VectorXd::Zero(q);  // of each function before its projection
   double chi = 0, weight = 0;
   for (std::size_t i = 0; i < left.values.size(); ++i) {
     const auto& v = left.values[i];
@@ -307,7 +307,7 @@ Regression regress(Left left, Errors errors) {
     projected.functions(v, z.data());
     double* const sum = scores.of(shared ? unit.angle : v.unit, shared ? 1 : unit.count);
     for (std::size_t k = 0; k < width; ++k) sum[k] += z[k] * r[i];
-    const Eigen::Map<const Column> of(z.data(), q);
+    const Eigen::Map<const VectorXd> of(z.data(), q);
     noise.selfadjointView<Eigen::Lower>().rankUpdate(of, v.variance);
     const double whole = v.change * v.change / v.variance;
     for (std::size_t k = 0; k < width; ++k)
@@ -341,7 +341,7 @@ Regression regress(Left left, Errors errors) {
   const double variance = chi / (n - static_cast<double>(projected.rank()));
 
   // Functions of unit variance, the best visible ones first.
-  const Column scale = length.unaryExpr([](double l) { return l > 0 ? 1 / std::sqrt(l) : 0; });
+  const VectorXd scale = length.unaryExpr([](double l) { return l > 0 ? 1 / std::sqrt(l) : 0; });
   const auto eigen = eigenpairs(scaled(scale, noise, scale));
   Eigen::Index kept = 0;
   while (kept < q && static_cast<double>(kept + 1) <= most && eigen.values[q - 1 - kept] > 1e-6)
@@ -350,7 +350,7 @@ Regression regress(Left left, Errors errors) {
   out.limited = kept < q && eigen.values[q - 1 - kept] > 1e-6;
   const Columns t = scaled(scale, eigen.vectors.rightCols(kept),
                            eigen.values.tail(kept).cwiseSqrt().cwiseInverse());
-  const Column sum = scores.sum(), u = transposed_times(t, sum);
+  const VectorXd sum = scores.sum(), u = transposed_times(t, sum);
   const double of = static_cast<double>(kept);
   const Columns meat = product(transposed_product(t, scores.squares()), t);
   out.tested = true;
@@ -368,7 +368,7 @@ Regression regress(Left left, Errors errors) {
     std::vector<Eigen::Index> own;
     for (std::size_t k = 0; k < width; ++k)
       if (static_cast<std::size_t>(belongs[k]) == g) own.push_back(index(k));
-    out.follows[g] = sum(own).dot(Inverse(noise(own, own)).inverse * Column(sum(own)));
+    out.follows[g] = sum(own).dot(Inverse(noise(own, own)).inverse * VectorXd(sum(own)));
   }
   judge_cells(left, projected, r, shared, out);
   return out;

@@ -50,14 +50,14 @@ ArrowRoot::ArrowRoot(const ArrowMatrix& m, double tiny) : layout_(m.shared_layou
 }
 
 ArrowRoot::Rotated ArrowRoot::rotated(std::span<const double> g) const {
-  const auto in_scale = [&](const std::vector<std::size_t>& unknowns, const Column& scale) {
-    Column v(index(unknowns.size()));
+  const auto in_scale = [&](const std::vector<std::size_t>& unknowns, const VectorXd& scale) {
+    VectorXd v(index(unknowns.size()));
     for (std::size_t k = 0; k < unknowns.size(); ++k)
       v[index(k)] = scale[index(k)] * g[unknowns[k]];
     return v;
   };
   Rotated r;
-  Column head = in_scale(layout_->head(), scale_);
+  VectorXd head = in_scale(layout_->head(), scale_);
   for (std::size_t a = 0; a < arms_.size(); ++a) {
     const Arm& arm = arms_[a];
     r.arms.push_back(arm.root.cwiseProduct(
@@ -70,14 +70,14 @@ ArrowRoot::Rotated ArrowRoot::rotated(std::span<const double> g) const {
 
 std::vector<double> ArrowRoot::solution(const Rotated& r) const {
   std::vector<double> x(layout_->size());
-  const Column head = times(head_.vectors, r.head.cwiseQuotient(head_.values));
-  const auto put = [&](const std::vector<std::size_t>& unknowns, const Column& in_scale) {
+  const VectorXd head = times(head_.vectors, r.head.cwiseQuotient(head_.values));
+  const auto put = [&](const std::vector<std::size_t>& unknowns, const VectorXd& in_scale) {
     for (std::size_t k = 0; k < unknowns.size(); ++k) x[unknowns[k]] = in_scale[index(k)];
   };
   put(layout_->head(), scale_.cwiseProduct(head));
   for (std::size_t a = 0; a < arms_.size(); ++a) {
     const Arm& arm = arms_[a];
-    const Column rest = r.arms[a] - times(arm.w, head);
+    const VectorXd rest = r.arms[a] - times(arm.w, head);
     put(layout_->arms()[a],
         arm.scale.cwiseProduct(times(arm.eigenvectors, arm.root.cwiseProduct(rest))));
   }
@@ -91,7 +91,7 @@ std::size_t ArrowRoot::at_most(double t) const {
   Columns complement = scaled_;
   complement.diagonal().array() -= t;
   for (const Arm& arm : arms_) {
-    Column shifted = arm.eigenvalues.array() - t;
+    VectorXd shifted = arm.eigenvalues.array() - t;
     for (auto& x : shifted) {
       count += x <= 0;
       if (x == 0) x = -1e-300;

@@ -23,18 +23,18 @@ class ArrowRoot {
   ArrowRoot(const ArrowMatrix&, double tiny);
 
   struct Arm {
-    Column scale, eigenvalues, root;  ///< S; Λ_c; Λ_c^(−1/2), 0 where left out
-    Columns eigenvectors, border, w;  ///< V_c, B_c, W_c
+    VectorXd scale, eigenvalues, root;  ///< S; Λ_c; Λ_c^(−1/2), 0 where left out
+    Columns eigenvectors, border, w;    ///< V_c, B_c, W_c
   };
-  const Column& scale() const { return scale_; }  ///< of the head
+  const VectorXd& scale() const { return scale_; }  ///< of the head
   const Eigenpairs& head() const { return head_; }
   const std::vector<Arm>& arms() const { return arms_; }
 
   /// Gradient g in that form: parts of the arms and of the head with Jᵀ r = S g, where
   /// r_c = arms[c] and the head's r = Λ^(−1/2) head.
   struct Rotated {
-    std::vector<Column> arms;
-    Column head;
+    std::vector<VectorXd> arms;
+    VectorXd head;
   };
   Rotated rotated(std::span<const double> g) const;
   /// S (S A S)⁻¹ of what was rotated: A⁻¹ g, by unknowns.
@@ -50,7 +50,7 @@ class ArrowRoot {
 
  private:
   std::shared_ptr<const ArrowLayout> layout_;
-  Column scale_;
+  VectorXd scale_;
   Columns scaled_;  ///< H
   Eigenpairs head_;
   std::vector<Arm> arms_;

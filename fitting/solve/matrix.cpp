@@ -16,15 +16,15 @@ Columns times_transposed(const Columns& a) {
   return a * a.transpose();
 }
 
-Column times(const Columns& a, const Column& v) {
+VectorXd times(const Columns& a, const VectorXd& v) {
   return a * v;
 }
 
-Column transposed_times(const Columns& a, const Column& v) {
+VectorXd transposed_times(const Columns& a, const VectorXd& v) {
   return a.transpose() * v;
 }
 
-Columns scaled(const Column& left, const Columns& a, const Column& right) {
+Columns scaled(const VectorXd& left, const Columns& a, const VectorXd& right) {
   return left.asDiagonal() * a * right.asDiagonal();
 }
 
@@ -33,7 +33,7 @@ Eigenpairs eigenpairs(const Columns& symmetric) {
   return {eigen.eigenvalues(), eigen.eigenvectors()};
 }
 
-Column eigenvalues(const Columns& symmetric) {
+VectorXd eigenvalues(const Columns& symmetric) {
   return Eigen::SelfAdjointEigenSolver<Columns>(symmetric, Eigen::EigenvaluesOnly).eigenvalues();
 }
 

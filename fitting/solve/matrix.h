@@ -11,7 +11,7 @@ namespace gonio {
 
 using RowMajor = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor>;
 using Columns = Eigen::MatrixXd;
-using Column = Eigen::VectorXd;
+using Eigen::VectorXd;
 
 inline Eigen::Index index(std::size_t n) {
   return static_cast<Eigen::Index>(n);
@@ -21,17 +21,17 @@ inline Eigen::Index index(std::size_t n) {
 Columns product(const Columns& a, const Columns& b);
 Columns transposed_product(const Columns& a, const Columns& b);
 Columns times_transposed(const Columns& a);
-Column times(const Columns& a, const Column& v);
-Column transposed_times(const Columns& a, const Column& v);
+VectorXd times(const Columns& a, const VectorXd& v);
+VectorXd transposed_times(const Columns& a, const VectorXd& v);
 /// diag(left) a diag(right)
-Columns scaled(const Column& left, const Columns& a, const Column& right);
+Columns scaled(const VectorXd& left, const Columns& a, const VectorXd& right);
 
 /// Eigenvalues of a symmetric matrix in ascending order, and its eigenvectors as columns.
 struct Eigenpairs {
-  Column values;
+  VectorXd values;
   Columns vectors;
 };
 Eigenpairs eigenpairs(const Columns& symmetric);
-Column eigenvalues(const Columns& symmetric);
+VectorXd eigenvalues(const Columns& symmetric);
 
 }  // namespace gonio
