@@ -65,7 +65,7 @@ void for_each_member(T& of, const F& f) {
     else
       f(m);
   };
-  std::apply([&](const auto&... all) { (one(all), ...); }, description<T>);
+  with_fields([&](const auto&... all) { (one(all), ...); }, description<T>);
 }
 
 /// Key with the k-th member changed.
