@@ -114,10 +114,11 @@ TEST(MadeWith, ReadsAsOneLine) {
   how.bins = Bins::edge;
   const std::string key = made_with(how);
   EXPECT_TRUE(key.starts_with("gonio ")) << key;
-  EXPECT_TRUE(key.ends_with(
-      "; model lambert+ggx/smith_ggx.correlated/schlick; "
-      "fix [{\"name\":\"gamma\",\"values\":2.0,\"text\":\"\",\"implied\":false}]; "
-      "metric log; intervals automatic; bin_sensitivity true; certificate auto; bins edge"))
+  EXPECT_TRUE(
+      key.ends_with("; model lambert+ggx/smith_ggx.correlated/schlick; "
+                    "fix [{\"name\":\"gamma\",\"values\":2.0,\"text\":\"\",\"implied\":false}]; "
+                    "metric log; intervals automatic; bin_sensitivity true; certificate auto; "
+                    "scale held; bins edge"))
       << key;
 }
 
