@@ -112,6 +112,7 @@ ExploredModel explore_model(const std::string& name,
   ExploredModel m{name, {}, {}};
   if (is_file && std::filesystem::exists(name)) {
     FittedModel fit = read_fitted_model(name);
+    expect_known_scale(name, fit);
     m.undetermined = fill_undetermined(fit);
     m.model = model_argument(name, fit, set);
   } else {

@@ -61,6 +61,7 @@ FittedModel fitted_model(const JsonDocument& document) {
       fit.channels.push_back(channel.string());
   if (root.has("input") && root.at("input").has("aperture"))
     fit.aperture_deg = root.at("input").at("aperture").numbers();
+  fit.scale_is_free = root.has("ratios");
   for (const auto& [name, parameter] : root.at("parameters").members())
     fit.parameters.emplace_back(name, parameter.at("value").numbers());
   return fit;
@@ -91,10 +92,17 @@ std::optional<double> typical_misfit(const std::string& path, const std::string&
   return std::exp(log_rms.number());
 }
 
+void expect_known_scale(const std::string& path, const FittedModel& fitted) {
+  if (fitted.scale_is_free)
+    throw bad_input(path, "ratios", "kd and weights up to one factor (--scale free)",
+                    "a fit of values in 1/sr; gonio columns FILE --scale brings them to that");
+}
+
 BoundModel bind_fitted(const std::string& path,
                        const FittedModel& fitted,
                        std::optional<std::size_t> channels) {
   expect_own_files_below(path, fitted.model);
+  expect_known_scale(path, fitted);
   std::vector<Setting> settings;
   for (const auto& [name, values] : fitted.parameters) {
     const auto is_of = [n = name](const auto& p) { return p.first == alpha_name(n); };

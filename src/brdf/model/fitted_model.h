@@ -19,6 +19,7 @@ struct FittedModel {
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
   std::vector<std::string> channels = {};  ///< empty where the file does not name them
   std::vector<double> aperture_deg = {};   ///< cones that the table was averaged over; or empty
+  bool scale_is_free = false;              ///< kd and weights are known up to one factor
 };
 /// Whether bytes begin as the document of a fit or as a file that gonio export put one in.
 /// \param head  first 256 bytes of a file, or all
@@ -27,6 +28,8 @@ FittedModel read_fitted_model(const std::string& path);
 /// Model in a document's bytes.  \param path  named in errors
 FittedModel parse_fitted_model(const std::string& path, const std::string& bytes);
 
+/// Refuses a fit whose values are known up to one factor, where they themselves are asked for.
+void expect_known_scale(const std::string& path, const FittedModel&);
 /// Model with its values; a parameter without one is bad input of that file.
 /// \param channels  of the model; else as many as its colours have
 BoundModel bind_fitted(const std::string& path,

@@ -109,9 +109,11 @@ std::vector<Setting> parse_settings(std::span<const std::string> words) {
       if (settings.empty())
         throw wrong_usage(fmt::format("'{}' is not of the form NAME=VALUE", item));
       auto& s = settings.back();
-      if (s.name == "metal")
+      if (s.name == "metal") {
+        if (!s.text.empty())
+          throw wrong_usage(fmt::format("metal: found {} and {}, expected one", s.text, value));
         s.text = value;
-      else
+      } else
         s.values.push_back(parse_number(value, s.name));
     }
   return settings;

@@ -91,6 +91,7 @@ void take_reference(Table& t, double reflectance) {
     throw wrong_usage(fmt::format(
         "reference: found {:g}, expected a reflectance above 0, 2 at most", reflectance));
   scale_values(t, reflectance / std::numbers::pi);
+  t.truth.reset();  // is that of other values
   t.notes.emplace_back("reference", fmt::format("values × {:g}/π", reflectance));
 }
 

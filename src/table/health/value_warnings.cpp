@@ -4,6 +4,7 @@
 #include <cmath>
 #include <map>
 #include <numbers>
+#include <set>
 #include <span>
 #include <utility>
 
@@ -44,18 +45,33 @@ std::string unit_of(const Table& t, double light) {
 }
 
 /// Least value of each incident direction whose samples all are above 1/π, as a share of the light: no
-/// proof, since the samples may lie in one plane.
+/// proof, since the samples may lie in one plane.  Of directions that are all apart, those of 10° of θ_i are
+/// taken together, where most lie away from the highlight.
 std::optional<std::pair<double, double>> bright_everywhere(const Table& t) {
   const DirectionList* l = t.list();
   if (!l) return {};
   constexpr std::size_t few = 8, large = 100'000;
   if (t.size() > large) return {};
   const SampleAngles at(t);
-  std::map<std::pair<double, double>, std::vector<double>> of;
-  for (std::size_t i = 0; i < t.size(); ++i)
-    for (const auto& plane : t.values)
-      if (mask(at(i), plane[i]) == Mask::valid)
-        of[{l->theta_i_deg[i], l->phi_i_deg[i]}].push_back(plane[i]);
+  const auto values_of = [&](auto&& direction_of) {
+    std::map<std::pair<double, double>, std::vector<double>> of;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      for (const auto& plane : t.values)
+        if (mask(at(i), plane[i]) == Mask::valid)
+          if (const auto direction = direction_of(i)) of[*direction].push_back(plane[i]);
+    return of;
+  };
+  using Direction = std::optional<std::pair<double, double>>;
+  auto of = values_of([&](std::size_t i) {
+    return Direction({l->theta_i_deg[i], l->phi_i_deg[i]});
+  });
+  if (std::ranges::all_of(of, [](const auto& d) { return d.second.size() < few; })) {
+    constexpr double band = 10, highlight = 20;
+    of = values_of([&](std::size_t i) {
+      if (at.half_difference(i).theta_h < highlight * degree) return Direction();
+      return Direction({band * (std::floor(l->theta_i_deg[i] / band) + 0.5), 0});
+    });
+  }
   std::optional<std::pair<double, double>> most;  // light, θ_i
   for (auto& [direction, values] : of) {
     if (values.size() < few) continue;
@@ -222,11 +238,16 @@ const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) 
 }
 
 void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
+  // Numbers that somebody typed may be as short.
+  constexpr std::size_t most_by_hand = 50, few_values = 8;
+  constexpr double small_loss = 0.015;  // standard deviation
   const Table& t = facts.table();
   const SampleAngles at(t);
   const FileRounding rounding = rounding_of(t);
   const double one_digit = 20 * rounding.absolute;  // six steps
   std::size_t zeros = 0, coarse = 0, values = 0, negative = 0;
+  std::vector<double> lost;  // by rounding, of each value
+  std::set<double> different;
   const std::size_t step = t.size() / 60'000 + 1;
   for (const auto& plane : t.values) {
     std::size_t none = 0, some = 0;
@@ -236,6 +257,9 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
       negative += m == Mask::negative;
       some += plane[i] > 0;
       coarse += plane[i] > 0 && plane[i] < one_digit;
+      if (!(plane[i] > 0) || mask(at(i), plane[i]) != Mask::valid) continue;
+      lost.push_back(rounding.of(plane[i]) / plane[i]);
+      if (different.size() < few_values) different.insert(plane[i]);
     }
     if (some == 0) continue;  // of a channel of zeros something else is said
     zeros += none;
@@ -255,6 +279,15 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
         fmt::format("{} of {} values are 0, clipped noise or shadow: logarithms leave them out "
                     "(--metric l2_cosine counts them)",
                     zeros, values));
+  else if (lost.size() >= most_by_hand && different.size() == few_values &&
+           median(lost) > small_loss)
+    all.push_back(fmt::format(
+        "values are rounded to {}, typically {:.2g} % of a value: parameters may be off by more "
+        "than their intervals",
+        rounding.digits > 0
+            ? fmt::format("{} significant digit{}", rounding.digits, rounding.digits > 1 ? "s" : "")
+            : fmt::format("steps of {:.3g} 1/sr", rounding.absolute * std::sqrt(12)),
+        100 * median(lost)));
 }
 
 /// A greatest value that many samples share, as they share no other, is where a detector was full.

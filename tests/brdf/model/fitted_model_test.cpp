@@ -40,6 +40,14 @@ TEST(FittedModel, HasTheValuesOfEachParameterThatIsNoSecondNameOfAnother) {
   EXPECT_EQ(b.values[b.model.find("f0")->slot(1)], 0.6);
 }
 
+TEST(FittedModel, OfAFreeScaleIsRefused) {
+  const std::string path = "fit.json";
+  const auto fit = parse_fitted_model(
+      path,
+      R"({"schema": "gonio.fit/1", "model": "lambert", "parameters": {"kd": {"value": [null, null, null]}}, "ratios": []})");
+  EXPECT_HAS(test::refusal([&] { bind_fitted(path, fit, {}); }), "--scale free");
+}
+
 TEST(FittedModel, RefusesWhatCannotBeEvaluated) {
   const auto complaint = [](const std::string& parameters,
                             std::optional<std::size_t> channels = {}) {

@@ -224,6 +224,8 @@ TEST(Binding, TurnsTheF0OfADielectricIntoItsIndex) {
   expect_refused([&] { bound(ggx + "+" + glass, "f0_2=0.04,eta_2=1.5"); }, {"f0_2", "eta_2"});
   expect_refused([&] { bound(glass, "f0=1"); }, {"f0 = 1", "[0, 1)"});
   expect_refused([&] { bound(glass, "f0=-0.1"); }, {"f0", "[0, 1)"});
+  expect_refused([&] { parse_settings(std::vector<std::string>{"metal=Au,Ag"}); },
+                 {"metal: found Au and Ag, expected one"});
   expect_refused([&] { bound(metal, "f0=0.9"); },
                  {"no parameter 'f0'"});  // a conductor has two unknowns
 }

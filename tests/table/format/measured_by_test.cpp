@@ -97,6 +97,14 @@ TEST(Uncertainties, OfDocumentsAreStandardOrExpanded) {
   EXPECT_EQ(read("standard uncertainty", "0.02").errors[0][0], 0.02);
   EXPECT_EQ(read("expanded uncertainty (k = 2)", "0.02").errors[0][0], 0.01);
   EXPECT_HAS(refusal([&] { read("", "0"); }), "an uncertainty above 0");
+  const auto in_percent = [&](std::string text, std::string_view of) {
+    const Folder folder;
+    const auto unit = text.find("sr-1", text.find(of));
+    return read_table(folder.write("a.json", text.replace(unit, 4, "%")));
+  };
+  const auto text = document("standard uncertainty", "4");
+  EXPECT_NEAR(in_percent(text, "\"uBRDF\"").errors[0][0], 0.012, 1e-15);
+  EXPECT_HAS(refusal([&] { in_percent(text, "\"BRDF\""); }), R"(unit: found "%", expected 1/sr)");
   EXPECT_HAS(refusal([&] { read("", "null"); }), "data.values[0][5]");
 }
 
@@ -119,7 +127,9 @@ TEST(Apertures, StandInTheOldFormsHead) {
 
 TEST(References, MakeFOfRatios) {
   Table t = table_of_csv("theta_i,phi_i,theta_o,phi_o,f,u_f\n10,0,20,180,1,.01\n");
+  t.truth = Truth{};
   take(t, {.mask = {}, .aperture = {}, .reference = 0.99});
+  EXPECT_FALSE(t.truth) << "it is that of the values before";
   EXPECT_NEAR(t.values[0][0], 0.99 / std::numbers::pi, 1e-15);
   EXPECT_NEAR(t.errors[0][0], 0.0099 / std::numbers::pi, 1e-15);
   for (const double bad : {0.0, -1.0, 99.0})

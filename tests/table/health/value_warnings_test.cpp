@@ -84,6 +84,16 @@ TEST(ValueWarnings, SayThatMoreLightLeavesThanArrivesHoweverFarRoundTheSamplesGo
                    "relative scale?"));
 }
 
+TEST(ValueWarnings, SayThatMoreLightLeavesThanArrivesWhereNoDirectionRepeats) {
+  Table t = painted(180);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> apart(0, 1e-3);
+  auto& list = std::get<DirectionList>(t.where);
+  for (auto& theta : list.theta_i_deg) theta += apart(random);
+  EXPECT_TRUE(said_of(t, [](const auto&, double f) { return f; }).empty());
+  EXPECT_TRUE(says(said_of(t, [](const auto&, double f) { return 1e5 * f; }), "counts?"));
+}
+
 TEST(ValueWarnings, NameTheReferenceOfValuesInPercentOfATarget) {
   Table t = painted(180);
   for (double& f : t.values[0])
@@ -143,6 +153,20 @@ TEST(ValueWarnings, SayThatExchangedDirectionsChangeValuesByFarMoreThanNoise) {
       says(said_of(painted(180),
                    [&](const auto&, double f) { return f * std::exp(0.1 * normal(random)); }),
            "exchanging the directions"));
+}
+
+TEST(ValueWarnings, SayThatValuesAreRoundedCoarsely) {
+  const auto rounded = [](double step) {
+    return said_of(painted(180),
+                   [=](const auto&, double f) { return step * std::round(f / step); });
+  };
+  EXPECT_TRUE(says(rounded(0.01), "rounded to steps of 0.01 1/sr, typically 3 % of a value"));
+  EXPECT_TRUE(rounded(0.001).empty());
+  const auto one_digit = [](const auto&, double f) {
+    const double place = std::pow(10, std::floor(std::log10(f)));
+    return place * std::round(f / place);
+  };
+  EXPECT_TRUE(says(said_of(painted(180, 0.1, 0.15), one_digit), "1 significant digit,"));
 }
 
 TEST(ValueWarnings, SayThatZerosAreLeftOut) {
