@@ -8,6 +8,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/quantile.h"
 #include "table/format/delimited.h"
 
 #include <fmt/format.h>
@@ -606,6 +607,44 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
   if (half) p.needed = true;
   p.map = std::move(map);
   return p;
+}
+
+void propose_forward(ColumnProposal& p, const Table& table) {
+  if (!p.map || std::ranges::any_of(p.map->columns, [](const auto& c) {
+        return c.first.starts_with("phi_") || c.first == "theta_h";
+      }))
+    return;
+  struct Side {
+    double sum = 0, count = 0;
+    double mean() const { return sum / count; }
+  };
+  struct Sides {
+    Side mirror, light;
+  };
+  constexpr double least_deg = 5, near_deg = 5, clear = 1.5;
+  std::map<double, Sides> around;  // values near ±θ_i, by θ_i to a degree
+  const DirectionList& l = *table.list();
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double in = l.theta_i_deg[i];
+    if (in < least_deg || std::abs(l.theta_o_deg[i] - in) > std::min(near_deg, in / 2)) continue;
+    Sides& sides = around[std::round(in)];
+    Side& side =
+        std::cos((l.phi_o_deg[i] - l.phi_i_deg[i]) * degree) > 0 ? sides.light : sides.mirror;
+    for (const auto& plane : table.values)
+      if (plane[i] > 0) side.sum += plane[i], ++side.count;
+  }
+  std::vector<double> ratios;
+  for (const auto& [in, sides] : around)
+    if (sides.mirror.count > 0 && sides.light.count > 0)
+      ratios.push_back(sides.light.mean() / sides.mirror.mean());
+  if (ratios.empty() || median(ratios) < clear) return;
+  p.map->forward_deg = 0;
+  p.needed = true;
+  p.said.push_back(
+      fmt::format("values near theta_o = +theta_i are {:.2g} times those near -theta_i: the mirror "
+                  "direction is taken to have the light's sign (leave out --forward 0 for a "
+                  "retro-reflector)",
+                  median(ratios)));
 }
 
 }  // namespace gonio
