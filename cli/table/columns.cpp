@@ -75,9 +75,18 @@ ColumnMap with_known(const ColumnsCall& o, const std::string& file, ColumnMap ma
   return map;
 }
 
-/// The proposal for a file's columns, of which it has these.
-ColumnProposal proposal_for(InputFile& in, const std::vector<ColumnSummary>& columns) {
-  return propose_columns(columns, in.path(), in.peek(1 << 14));
+/// The proposal for a file's columns, of which it has these below so many lines.
+ColumnProposal proposal_for(InputFile& in,
+                            const std::vector<ColumnSummary>& columns,
+                            std::size_t skip) {
+  auto p = propose_columns(columns, in.path(), in.peek(1 << 14));
+  if (!p.map) return p;
+  p.map->skip = skip;
+  try {
+    propose_forward(p, read_csv(in, &*p.map));
+  } catch (const Error&) {  // whoever takes the proposal meets it
+  }
+  return p;
 }
 
 /// True where lines to pass over are all that is said, and the names below them are not enough.
@@ -85,7 +94,7 @@ bool asks_below(const ColumnsCall& o, const std::string& file) {
   if (o.map.skip == 0) return true;
   InputFile in(file);
   expect_columns(in);
-  const auto p = proposal_for(in, csv_columns(in, o.map.skip));
+  const auto p = proposal_for(in, csv_columns(in, o.map.skip), o.map.skip);
   return !p.map || p.needed;
 }
 
@@ -164,6 +173,8 @@ void print(const ColumnProposal& p, const std::string& file) {
       command += " " + shell_word(role + "=" + column);
   if (p.map && p.map->radians) command += " --radians";
   if (p.map && p.map->cosine) command += " --cosine";
+  if (p.map && p.map->forward_deg != ColumnMap().forward_deg)
+    command += fmt::format(" --forward {:g}", p.map->forward_deg);
   if (p.map && p.map->skip) command += fmt::format(" --skip {}", p.map->skip);
   say("no map; {}\n  {}\n", p.map ? "by their names and ranges it would be" : "one is made by",
       command);
@@ -204,8 +215,7 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   if (map) {
     if (!o.json) say("{} says {}\n", side_path(file), line_of(said));
   } else {
-    auto p = proposal_for(in, columns);
-    if (p.map) p.map->skip = skip;
+    const auto p = proposal_for(in, columns, skip);
     if (!o.json) print(p, file);
     if (p.map)
       proposed = {{"columns", columns_of(file, with_columns(side_path(file), "", *p.map))},

@@ -155,6 +155,41 @@ TEST(Columns, OfEachLayoutAreFittedByTheCommandThatIsProposed) {
   }
 }
 
+TEST(Columns, OfSignedAnglesAreTurnedToWhereTheHighlightIs) {
+  const BoundModel paint = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                                      {{"alpha", {0.2}}, {"f0", {0.05}}, {"kd", {0.3}}}, 1);
+  const auto angle = [](double deg) {
+    return direction(std::abs(deg) * degree, deg < 0 ? M_PI : 0);
+  };
+  const auto run = [&](double in, double out) {
+    return fmt::format(",{:.9g}\n",
+                       evaluate(paint, std::vector{angles({angle(in), angle(out)})})[0][0]);
+  };
+  std::string mirror = "angle,brdf\n", light = mirror, both = "aoi,angle,brdf\n", matt = mirror;
+  for (int out = -80; out <= 80; out += 2) {
+    mirror += fmt::format("{}", out) + run(30, -out);
+    light += fmt::format("{}", out) + run(30, out);
+    matt += fmt::format("{},{}\n", out, out > 0 ? 0.13 : 0.1);
+    for (const int in : {0, 30, 60}) both += fmt::format("{},{}", in, out) + run(in, -out);
+  }
+  const Folder f;
+  for (const auto& [name, text, turned] : {std::tuple("mirror_30deg.csv", mirror, true),
+                                           {"light_30deg.csv", light, false},
+                                           {"both.csv", both, true},
+                                           {"matt_30deg.csv", matt, false}}) {
+    f.write(name, text);
+    const auto proposal = gonio(f, std::string("columns ") + name + " --json").json()["proposal"];
+    EXPECT_EQ(proposal["said"].dump().find("near theta_o = +theta_i") != std::string::npos, turned);
+    take_proposal(f, name);
+    const auto said = gonio(f, std::string("columns ") + name + " --json").json()["columns"];
+    EXPECT_EQ(said.value("forward", 180.0), turned ? 0 : 180) << name;
+    EXPECT_EQ(said, proposal["columns"]) << name;
+    if (text == matt) continue;
+    const auto fit = gonio(f, std::string("fit ") + name + " --json").json();
+    EXPECT_NEAR(fit["parameters"]["alpha"]["value"].get<double>(), 0.2, 1e-3) << name;
+  }
+}
+
 TEST(Columns, KeepWhatIsSaidOfThemUnderOptionsAfterwards) {
   const Folder f;
   f.write("t.csv", "in,out,brdf\n30,20,1\n30,40,2\n");

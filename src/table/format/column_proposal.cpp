@@ -8,6 +8,7 @@
 #include <string_view>
 #include <unordered_map>
 
+#include "base/quantile.h"
 #include "table/format/delimited.h"
 
 #include <fmt/format.h>
@@ -74,13 +75,47 @@ constexpr std::array wavelengths{Words("lambda"),      Words("wavelength"),   Wo
 constexpr std::array per_solid_angle{Words("1sr"), Words("sr1"), Words("persr"), Words("sr")};
 constexpr std::array halves{Words("h"), Words("half")};
 constexpr std::array differences{Words("d"), Words("diff"), Words("difference")};
-constexpr std::array words_of_doubt{
-    Words("u"),           Words("uf"),     Words("ufr"),          Words("sigma"),
-    Words("std"),         Words("stdev"),  Words("sd"),           Words("stddev"),
-    Words("unc"),         Words("uncert"), Words("sem"),          Words("err"),
-    Words("uncertainty"), Words("fstd"),   Words("funcertainty"), Words("fstdev"),
-    Words("fsigma"),      Words("stderr"), Words("error"),        Words("ferr"),
-    Words("func"),        Words("se"),     Words("deviation"),    Words("unsicherheit")};
+constexpr std::array words_of_doubt{Words("u"),
+                                    Words("uf"),
+                                    Words("ufr"),
+                                    Words("sigma"),
+                                    Words("std"),
+                                    Words("stdev"),
+                                    Words("sd"),
+                                    Words("stddev"),
+                                    Words("unc"),
+                                    Words("uncert"),
+                                    Words("sem"),
+                                    Words("err"),
+                                    Words("uncertainty"),
+                                    Words("fstd"),
+                                    Words("funcertainty"),
+                                    Words("fstdev"),
+                                    Words("fsigma"),
+                                    Words("stderr"),
+                                    Words("error"),
+                                    Words("ferr"),
+                                    Words("func"),
+                                    Words("se"),
+                                    Words("deviation"),
+                                    Words("unsicherheit"),
+                                    Words("abweichung"),
+                                    Words("messunsicherheit")};
+/// Words that a number before them multiplies: "2 sigma".
+constexpr std::array spreads{Words("sigma"), Words("std"), Words("sd")};
+constexpr std::array words_of_expansion{Words("expanded"), Words("erweiterte")};
+constexpr std::array words_of_percent{Words("percent"), Words("prozent")};
+constexpr std::array words_of_relation{Words("relative"), Words("relativ"), Words("rel")};
+constexpr std::array words_of_angles{Words("theta"),   Words("zenith"), Words("polar"),
+                                     Words("phi"),     Words("azi"),    Words("angle"),
+                                     Words("angular"), Words("winkel"), Words("wavelength")};
+/// Units that no role has.
+constexpr std::array small_units{Words("ppm"),      Words("ppb"),      Words("‰"),
+                                 Words("permille"), Words("promille"), Words("db")};
+/// Words that change nothing.
+constexpr std::array fillers{Words("in"),       Words("of"),          Words("the"),
+                             Words("values"),   Words("abs"),         Words("absolute"),
+                             Words("combined"), Words("measurement"), Words("total")};
 
 enum Angle { theta_i, phi_i, theta_o, phi_o, theta_h, phi_h, theta_d, phi_d };
 
@@ -109,23 +144,104 @@ Said said_by(const std::string& name) {
   return {{}, false, zenith && rest.empty(), azimuth};
 }
 
-/// Kind of an uncertainty, as a role begins: "u_f", "U_percent"; none of other names.
-std::optional<std::string> uncertainty_kind(const std::string& whole) {
-  std::string rest = plain(whole);
-  const bool expanded = take(rest, "k2") || take(rest, "expanded") || take(rest, "erweiterte") ||
-                        whole == "U" || whole.starts_with("U_") || whole.starts_with("U ") ||
-                        whole.starts_with("U(");
-  const bool percent = whole.find('%') != whole.npos || take(rest, "percent");
-  const bool relative = take(rest, "relative") || take(rest, "rel");
-  for (const std::string_view word : {"standard", "k1", "bsdf", "brdf", "value"}) take(rest, word);
-  take_any(rest, per_solid_angle);
-  if (!is_any(rest, words_of_doubt)) return {};
-  return std::string(expanded ? "U_" : "u_") + (percent ? "percent" : relative ? "rel" : "f");
+/// Words and numbers of a name: "U (k=2.0) [%]" is U, k, 2.0 and %; a number keeps the % behind it.
+std::vector<std::string> words_of(std::string_view name) {
+  const auto is_digit = [](char c) { return '0' <= c && c <= '9'; };
+  const auto is_letter = [](char c) { return ('a' <= c && c <= 'z') || ('A' <= c && c <= 'Z'); };
+  std::vector<std::string> words;
+  for (std::size_t k = 0; k < name.size();) {
+    const auto from = name.substr(k);
+    std::size_t size = 0;
+    while (size < from.size() && is_letter(from[size])) ++size;
+    if (size == 0 && is_digit(from[0])) {
+      size = std::min(from.find_first_not_of("0123456789.,"), from.size());
+      while (!is_digit(from[size - 1])) --size;
+      words.emplace_back(from.substr(0, size));
+      if (const auto next = from.find_first_not_of(' ', size);
+          next != from.npos && from[next] == '%')
+        words.back() += '%', size = next + 1;
+    } else if (size > 0) {
+      words.emplace_back(from.substr(0, size));
+    } else {
+      size = 1;
+      for (const auto& [letter, word] :
+           {std::pair<Words, Words>("σ", "sigma"), {"‰", "‰"}, {"%", "%"}})
+        if (from.starts_with(letter)) words.emplace_back(word), size = letter.size();
+    }
+    k += size;
+  }
+  return words;
+}
+
+/// Kind of an uncertainty, as a role begins: "u_f", "U_percent"; "" where the name looks like one, but its coverage
+/// factor, unit or words are not known; none of other names.
+std::optional<std::string> uncertainty_kind(std::string_view name) {
+  std::string rest;
+  bool expanded = false, percent = false, known = true, looks = false;
+  std::optional<double> factor;
+  const auto words = words_of(name);
+  for (std::size_t k = 0; k < words.size(); ++k) {
+    const std::string word = plain(words[k]), before = k > 0 ? plain(words[k - 1]) : "",
+                      next = k + 1 < words.size() ? plain(words[k + 1]) : "";
+    if (decimal_digits.find(words[k][0]) != decimal_digits.npos) {
+      if (before == "sr" || next == "sr") continue;
+      if (before == "k" || is_any(next, spreads))
+        factor = number_in(words[k]).value_or(0);
+      else if (word == "95")  // percent of all cases
+        expanded = true;
+      else
+        known = false;
+    } else if (words[k] == "%") {
+      percent = true;
+    } else if (is_any(words[k], small_units) || is_any(word, small_units)) {
+      known = false;
+    } else if (!is_any(word, fillers) &&
+               !(word == "k" && decimal_digits.find(next[0]) != decimal_digits.npos)) {
+      expanded = expanded || words[k] == "U";
+      looks = looks || (is_any(word, words_of_doubt) && (rest.empty() || word.size() > 2));
+      rest += word;
+    }
+  }
+  expanded = take_any(rest, words_of_expansion) || expanded;
+  percent = take_any(rest, words_of_percent) || percent;
+  const bool relative = take_any(rest, words_of_relation);
+  for (const std::string_view word : {"standard", "bsdf", "brdf", "value", "persr", "sr"})
+    take(rest, word);
+  if (!is_any(rest, words_of_doubt)) {
+    const bool of_angle = std::ranges::any_of(
+        words_of_angles, [&](auto word) { return rest.find(word) != rest.npos; });
+    return looks && !of_angle ? std::optional(std::string()) : std::nullopt;
+  }
+  if (!known || (factor && *factor != 1 && *factor != 2)) return "";
+  return std::string(factor.value_or(expanded ? 2 : 1) == 2 ? "U_" : "u_") + (percent    ? "percent"
+                                                                              : relative ? "rel"
+                                                                                         : "f");
+}
+
+/// A name with a wavelength in it, which others may have in its place.
+struct WavelengthName {
+  std::string pattern;  ///< "U *nm [%]"
+  std::string without;  ///< "U  [%]"
+};
+std::optional<WavelengthName> wavelength_name(std::string_view name) {
+  for (auto from = name.find_first_of(decimal_digits); from != name.npos;) {
+    const auto end = name.find_first_not_of("0123456789.", from);
+    if (end == name.npos) return {};
+    const auto unit = name.substr(end), before = name.substr(0, from);
+    for (const std::string_view nm : {"nm", " nm"})
+      if (unit.starts_with(nm))
+        return WavelengthName{fmt::format("{}*{}", before, unit),
+                              fmt::format("{} {}", before, unit.substr(nm.size()))};
+    from = name.find_first_of(decimal_digits, end);
+  }
+  return {};
 }
 
 struct Found {
   std::array<std::optional<std::size_t>, angle_roles.size()> angle;
   std::optional<std::size_t> zenith_of_neither, azimuth_of_neither, value, channel, uncertainty;
+  std::vector<std::string>
+      unclear;  ///< names that look like uncertainties, of which no more is known
 };
 
 void keep_first(std::optional<std::size_t>& slot, std::size_t column) {
@@ -145,7 +261,10 @@ Found by_name(std::span<const ColumnSummary> columns) {
       found.value = k;
     } else if (is_any(name, wavelengths)) {
       keep_first(found.channel, k);
-    } else if (uncertainty_kind(columns[k].name)) {
+    } else if (const auto kind = wavelength_name(columns[k].name)
+                                     ? std::nullopt
+                                     : uncertainty_kind(columns[k].name);
+               kind && !kind->empty()) {
       keep_first(found.uncertainty, k);
     } else if (const Said said = said_by(name); said.angle) {
       keep_first((said.beside ? beside : found.angle)[*said.angle], k);
@@ -153,6 +272,8 @@ Found by_name(std::span<const ColumnSummary> columns) {
       keep_first(found.azimuth_of_neither, k);
     } else if (said.zenith) {
       keep_first(found.zenith_of_neither, k);
+    } else if (kind && !is_role(columns[k].name)) {
+      found.unclear.push_back(columns[k].name);
     }
   }
   for (const auto a : {theta_i, theta_o})
@@ -171,31 +292,45 @@ Found by_name(std::span<const ColumnSummary> columns) {
   return found;
 }
 
-/// Columns that are named after a wavelength, as "*nm".
+/// Columns that are named after wavelengths.
 struct Bands {
-  std::string pattern, role;
+  std::string values;  ///< pattern, as "*nm"; "" where no two columns have one, or where two
+                       ///< patterns could be it
+  std::string uncertainties, kind;   ///< their pattern, and what it is of the values
+  double lowest = 0;                 ///< uncertainty
+  std::vector<std::string> unclear;  ///< patterns that look like uncertainties, and are not these
 };
-/// Patterns of values, or of words_of_doubt, each of two columns or more; none where they are not plain.
-std::vector<Bands> bands_by_pattern(std::span<const ColumnSummary> columns) {
-  std::map<std::string, std::size_t> count;
-  for (const auto& c : columns) {
-    const auto digit = c.name.find_first_of(decimal_digits);
-    const auto end = c.name.find_first_not_of("0123456789.", digit);
-    if (digit == c.name.npos || end == c.name.npos) continue;
-    const std::string unit = c.name.substr(end);
-    if (unit.starts_with("nm") || unit.starts_with(" nm"))
-      ++count[c.name.substr(0, digit) + "*" + unit];
+Bands bands_by_pattern(std::span<const ColumnSummary> columns) {
+  struct Pattern {
+    std::string without;
+    std::size_t times = 0;
+    double lowest = HUGE_VAL;
+  };
+  std::map<std::string, Pattern> patterns;
+  for (const auto& c : columns)
+    if (const auto name = wavelength_name(c.name)) {
+      auto& p = patterns[name->pattern];
+      p.without = name->without;
+      ++p.times;
+      p.lowest = std::min(p.lowest, c.lowest);
+    }
+  Bands bands;
+  std::size_t of_values = 0;
+  bool each_twice = true;
+  for (const auto& [pattern, p] : patterns) {
+    const auto kind = uncertainty_kind(p.without);
+    if (!kind) {
+      bands.values = pattern;
+      ++of_values;
+      each_twice = each_twice && p.times > 1;
+    } else if (kind->empty() || p.times < 2 || !bands.kind.empty()) {
+      bands.unclear.push_back(pattern);
+    } else {
+      bands.uncertainties = pattern, bands.kind = *kind, bands.lowest = p.lowest;
+    }
   }
-  std::vector<Bands> all;
-  for (const auto& [pattern, times] : count) {
-    const auto kind = uncertainty_kind(pattern.substr(0, pattern.find('*')));
-    const bool repeats = std::ranges::any_of(
-        all, [&](const Bands& b) { return kind.has_value() == (b.role != "f_*"); });
-    if (times < 2 || repeats) return {};
-    all.insert(kind ? all.end() : all.begin(), {pattern, kind.value_or("f") + "_*"});
-  }
-  if (all.size() == 1 && all[0].role != "f_*") all.clear();
-  return all;
+  if (of_values != 1 || !each_twice) bands.values.clear();
+  return bands;
 }
 
 /// A table whose columns, but for the first, are the values at one angle each.
@@ -403,34 +538,52 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
 
   for (std::size_t k = 0; k < columns.size() && !matrix; ++k)
     if (columns[k].name.starts_with("f_") && is_role(columns[k].name) && !found.channel &&
-        !uncertainty_kind(columns[k].name))
+        uncertainty_kind(columns[k].name).value_or("").empty())
       map.columns.emplace_back(columns[k].name, reference(k));
   const bool by_channel =
       std::ranges::any_of(map.columns, [](const auto& c) { return c.first.starts_with("f_"); });
-  const auto bands =
-      by_channel || found.channel || matrix ? std::vector<Bands>() : bands_by_pattern(columns);
-  for (const auto& [pattern, role] : bands) map.columns.emplace_back(role, pattern);
-  if (!bands.empty()) found.value.reset();
+  const auto bands = by_channel || found.channel || matrix ? Bands() : bands_by_pattern(columns);
+  if (!bands.values.empty()) {
+    map.columns.emplace_back("f_*", bands.values);
+    found.value.reset();
+  }
   if (found.value && !by_channel) map.columns.emplace_back("f", reference(*found.value));
   if (found.channel) map.columns.emplace_back("channel", reference(*found.channel));
-  if (found.uncertainty && bands.size() < 2) {
+  const auto take_for_uncertainty = [&](const std::string& name, const std::string& kind,
+                                        double lowest, const std::string& role,
+                                        const std::string& column) {
+    if (!(lowest > 0)) {
+      p.said.push_back(fmt::format("{} is not above 0 everywhere: no standard uncertainty", name));
+      return;
+    }
+    map.columns.emplace_back(role, column);
+    p.said.push_back(fmt::format("{} is taken for the {} uncertainty of the values{}", name,
+                                 kind.starts_with("U") ? "expanded (k = 2)" : "standard",
+                                 kind.ends_with("percent") ? ", in percent"
+                                 : kind.ends_with("rel")   ? ", in parts"
+                                                           : ""));
+  };
+  if (!bands.values.empty() && !bands.kind.empty()) {
+    take_for_uncertainty(bands.uncertainties, bands.kind, bands.lowest, bands.kind + "_*",
+                         bands.uncertainties);
+  } else if (found.uncertainty) {
     const auto& c = columns[*found.uncertainty];
     const auto kind = *uncertainty_kind(c.name);
-    if (uncertainty_role(c.name)) {  // its own name says it
-    } else if (!(c.lowest > 0)) {
-      p.said.push_back(
-          fmt::format("{} is not above 0 everywhere: no standard uncertainty", c.name));
-    } else {
-      map.columns.emplace_back(kind, reference(*found.uncertainty));
-      p.said.push_back(fmt::format("{} is taken for the {} uncertainty of the values{}", c.name,
-                                   kind.starts_with("U") ? "expanded (k = 2)" : "standard",
-                                   kind.ends_with("percent") ? ", in percent"
-                                   : kind.ends_with("rel")   ? ", in parts"
-                                                             : ""));
-    }
+    if (!uncertainty_role(c.name))  // else its own name says it
+      take_for_uncertainty(c.name, kind, c.lowest, kind, reference(*found.uncertainty));
   }
+  std::vector<std::string> unclear = found.unclear;
+  unclear.insert(unclear.end(), bands.unclear.begin(), bands.unclear.end());
+  if (!unclear.empty())
+    p.said.push_back(fmt::format(
+        "{} and {} not used: --map u_f=… takes a column for the standard one, U_f=… for k = 2 "
+        "(u_percent, U_percent in percent); bring other factors and units to these first",
+        unclear.size() == 1
+            ? unclear[0] + " looks like an uncertainty"
+            : fmt::format("{} and {} more look like uncertainties", unclear[0], unclear.size() - 1),
+        unclear.size() == 1 ? "is" : "are"));
 
-  const bool has_values = found.value || by_channel || !bands.empty() || matrix;
+  const bool has_values = found.value || by_channel || !bands.values.empty() || matrix;
   if (!has_values) p.said.emplace_back("no column is called like a value, f or brdf");
   if (lacks || !has_values) return p;
   if (found.value && plain(columns[*found.value].name).starts_with("cc")) {
@@ -454,6 +607,44 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
   if (half) p.needed = true;
   p.map = std::move(map);
   return p;
+}
+
+void propose_forward(ColumnProposal& p, const Table& table) {
+  if (!p.map || std::ranges::any_of(p.map->columns, [](const auto& c) {
+        return c.first.starts_with("phi_") || c.first == "theta_h";
+      }))
+    return;
+  struct Side {
+    double sum = 0, count = 0;
+    double mean() const { return sum / count; }
+  };
+  struct Sides {
+    Side mirror, light;
+  };
+  constexpr double least_deg = 5, near_deg = 5, clear = 1.5;
+  std::map<double, Sides> around;  // values near ±θ_i, by θ_i to a degree
+  const DirectionList& l = *table.list();
+  for (std::size_t i = 0; i < table.size(); ++i) {
+    const double in = l.theta_i_deg[i];
+    if (in < least_deg || std::abs(l.theta_o_deg[i] - in) > std::min(near_deg, in / 2)) continue;
+    Sides& sides = around[std::round(in)];
+    Side& side =
+        std::cos((l.phi_o_deg[i] - l.phi_i_deg[i]) * degree) > 0 ? sides.light : sides.mirror;
+    for (const auto& plane : table.values)
+      if (plane[i] > 0) side.sum += plane[i], ++side.count;
+  }
+  std::vector<double> ratios;
+  for (const auto& [in, sides] : around)
+    if (sides.mirror.count > 0 && sides.light.count > 0)
+      ratios.push_back(sides.light.mean() / sides.mirror.mean());
+  if (ratios.empty() || median(ratios) < clear) return;
+  p.map->forward_deg = 0;
+  p.needed = true;
+  p.said.push_back(
+      fmt::format("values near theta_o = +theta_i are {:.2g} times those near -theta_i: the mirror "
+                  "direction is taken to have the light's sign (leave out --forward 0 for a "
+                  "retro-reflector)",
+                  median(ratios)));
 }
 
 }  // namespace gonio

@@ -32,4 +32,8 @@ ColumnProposal propose_columns(std::span<const ColumnSummary>,
                                const std::string& file = "",
                                std::string_view head = "");
 
+/// Proposes --forward 0 for signed angles in one plane whose highlight has the light's sign.
+/// \param table  as the proposal's map reads it
+void propose_forward(ColumnProposal&, const Table& table);
+
 }  // namespace gonio

@@ -375,26 +375,47 @@ class CsvReader {
     }
   }
 
-  /// The map's words, with a column for each that a pattern such as f_*=*nm matches.
+  /// What a pattern such as "U*nm" fixes.
+  struct Pattern {
+    std::string_view before, after;
+
+    bool matches(std::string_view name) const {
+      return name.size() > fixed() && name.starts_with(before) && name.ends_with(after);
+    }
+    std::size_t fixed() const { return before.size() + after.size(); }
+  };
+  static std::optional<Pattern> pattern(const std::pair<std::string, std::string>& said) {
+    const std::string_view word = said.second;
+    const auto star = word.find('*');
+    if (!said.first.ends_with("_*") || star == word.npos) return {};
+    return Pattern{word.substr(0, star), word.substr(star + 1)};
+  }
+
+  /// The map's words, with a column for each that a pattern such as f_*=*nm matches, and none matches that fixes more of
+  /// its name.
   std::vector<std::pair<std::string, std::string>> expanded() const {
+    std::map<std::string_view, std::size_t> most_fixed;  // of a name
+    for (const auto& said : map_->columns)
+      if (const auto p = pattern(said))
+        for (const auto& whole : lines_.names())
+          if (const auto name = without_blanks(whole); p->matches(name))
+            most_fixed[name] = std::max(most_fixed[name], p->fixed());
     std::vector<std::pair<std::string, std::string>> all;
-    for (const auto& [role, word] : map_->columns) {
-      const auto star = word.find('*');
-      if (!role.ends_with("_*") || star == word.npos) {
-        all.emplace_back(role, word);
+    for (const auto& said : map_->columns) {
+      const auto p = pattern(said);
+      if (!p) {
+        all.push_back(said);
         continue;
       }
-      const std::string_view before = std::string_view(word).substr(0, star),
-                             after = std::string_view(word).substr(star + 1);
+      const auto& [role, word] = said;
       const std::size_t size = all.size();
       for (const auto& whole : lines_.names()) {
         const auto name = without_blanks(whole);
-        if (name.size() > before.size() + after.size() && name.starts_with(before) &&
-            name.ends_with(after))
-          all.emplace_back(role.substr(0, role.size() - 1) +
-                               std::string(without_blanks(
-                                   name.substr(star, name.size() - before.size() - after.size()))),
-                           std::string(name));
+        if (p->matches(name) && p->fixed() == most_fixed[name])
+          all.emplace_back(
+              role.substr(0, role.size() - 1) + std::string(without_blanks(name.substr(
+                                                    p->before.size(), name.size() - p->fixed()))),
+              std::string(name));
       }
       if (all.size() == size)
         lines_.fail("", fmt::format("no column like '{}'", word),

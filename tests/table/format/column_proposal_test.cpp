@@ -1,5 +1,6 @@
 #include "table/format/column_proposal.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -151,6 +152,61 @@ TEST(ColumnProposal, UncertaintiesAreRecognised) {
                                          column("400nm", 0, 1), column("u_400nm", 0.1, 1)};
   EXPECT_EQ(propose_columns(bands).map->columns,
             (Map{{"theta_i", "aoi"}, {"theta_o", "theta_s"}, {"f_*", "*nm"}, {"u_f_*", "u_*nm"}}));
+}
+
+TEST(ColumnProposal, UncertaintiesOfEachWavelengthKeepUnitAndFactor) {
+  using Case = std::array<const char*, 4>;  // value, uncertainty, their patterns
+  const std::pair<Case, const char*> cases[] = {
+      {{"BRDF {} nm [1/sr]", "U {} nm (k=2) [%]", "BRDF * nm [1/sr]", "U * nm (k=2) [%]"},
+       "U_percent_*"},
+      {{"{} nm", "{} nm unc. rel. (k=1)", "* nm", "* nm unc. rel. (k=1)"}, "u_rel_*"},
+      {{"{}nm", "U95_{}nm", "*nm", "U95_*nm"}, "U_f_*"},
+      {{"{}nm", "U{}nm", "*nm", "U*nm"}, "U_f_*"}};
+  for (const auto& [names, role] : cases) {
+    std::vector<std::string> all;
+    for (const int k : {0, 1})
+      for (const int nm : {450, 550}) all.push_back(fmt::format(fmt::runtime(names[k]), nm));
+    std::vector<ColumnSummary> columns{column("aoi", 0, 75), column("theta_s", 0, 80)};
+    for (const auto& name : all) columns.push_back(column(name.c_str(), 0.1, 2));
+    const auto p = propose_columns(columns);
+    ASSERT_TRUE(p.map) << names[1];
+    EXPECT_EQ(
+        p.map->columns,
+        (Map{{"theta_i", "aoi"}, {"theta_o", "theta_s"}, {"f_*", names[2]}, {role, names[3]}}))
+        << names[1];
+    ASSERT_EQ(p.said.size(), 1U) << names[1];
+    EXPECT_EQ(p.said[0].find("expanded") != std::string::npos, role[0] == 'U') << p.said[0];
+    EXPECT_EQ(p.said[0].ends_with("in percent"), role == std::string("U_percent_*")) << p.said[0];
+    columns.back().lowest = 0;
+    EXPECT_EQ(propose_columns(columns).map->columns.size(), 3U) << "it would be refused";
+  }
+}
+
+TEST(ColumnProposal, CoverageFactorsAreReadOrTheColumnIsNamedAsNotUsed) {
+  const auto with = [](const char* name) {
+    return propose_columns(std::vector{column("aoi", 0, 75), column("theta_s", 0, 80),
+                                       column("brdf", 0, 9), column(name, 0.01, 2)});
+  };
+  using Case = std::pair<const char*, const char*>;
+  for (const auto& [name, role] :
+       {Case{"U (k=1) [%]", "u_percent"}, Case{"U (k=2.0)", "U_f"}, Case{"U95 [%]", "U_percent"},
+        Case{"U (95 %) [1/sr]", "U_f"}, Case{"2 sigma (%)", "U_percent"}, Case{"1σ", "u_f"},
+        Case{"expanded uncertainty (k = 2) in %", "U_percent"},
+        Case{"erweiterte Messunsicherheit [%]", "U_percent"},
+        Case{"Standardabweichung [sr^-1]", "u_f"}}) {
+    const auto p = with(name);
+    EXPECT_EQ(p.map->columns.back(), (std::pair<std::string, std::string>(role, name)));
+    EXPECT_EQ(p.said.size(), 1U) << name;
+  }
+  for (const char* name : {"U (k=3) [%]", "3 sigma", "unc [ppm]", "U [‰]", "uncertainty budget"}) {
+    const auto p = with(name);
+    EXPECT_EQ(p.map->columns.size(), 3U) << name;
+    ASSERT_EQ(p.said.size(), 1U) << name;
+    EXPECT_TRUE(p.said[0].starts_with(std::string(name) + " looks like an uncertainty"))
+        << p.said[0];
+  }
+  for (const char* name : {"angle uncertainty", "sigma_theta_i", "comment", "run 2"})
+    EXPECT_TRUE(with(name).said.empty()) << name;
 }
 
 TEST(ColumnProposal, ColumnsOfOneNameGoByTheirNumber) {

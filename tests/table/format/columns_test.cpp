@@ -494,6 +494,20 @@ TEST(ColumnMap, OfAPatternTakesEveryColumnThatIsLikeIt) {
                    "two channels named 1");
 }
 
+TEST(ColumnMap, TakesAColumnForThePatternThatFixesMoreOfItsName) {
+  const std::string text =
+      "theta_i,theta_o,450nm,550nm,U450nm,U550nm\n30,20,0.5,0.7,0.02,0.04\n30,40,0.6,0.8,0.02,0."
+      "04\n";
+  for (const char* said : {R"("f_*":"*nm","U_f_*":"U*nm")", R"("U_f_*":"U*nm","f_*":"*nm")"}) {
+    const Table t = read(text, said);
+    EXPECT_EQ(t.channels, (std::vector<std::string>{"450", "550"}));
+    EXPECT_EQ(t.values[1], (Values{0.7, 0.8}));
+    ASSERT_EQ(t.errors.size(), 2U);
+    EXPECT_EQ(t.errors[1], (Values{0.02, 0.02})) << "half of U";
+  }
+  expect_complaint(text, R"("f_*":"*50nm","U_f_*":"U*0nm")", "a column that is two things");
+}
+
 TEST(ColumnMap, TakesUncertaintiesInPartsOfTheValue) {
   const std::string text = "in,out,a,b,s,t\n30,20,2,4,10,5\n30,40,1,0,10,5\n30,50,1,4,10,5\n",
                     angles = R"("theta_i":"in","theta_o":"out",)";
