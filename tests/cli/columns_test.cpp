@@ -233,7 +233,6 @@ TEST(Columns, ThatHoldNoReflectanceAreMendedByTheCommandThatIsGiven) {
       {"a radiance factor", paint_as("f", one([](double f, double, double) { return M_PI * f; }))},
       {"in percent", paint_as("f", one([](double f, double, double) { return 100 * M_PI * f; }))},
       {"f cos(theta_o)", paint_as("f", one([](double f, double, double o) { return f * o; }))},
-      {"f cos(theta_i)", paint_as("f", one([](double f, double i, double) { return f * i; }))},
       {"channel r", paint_as("f_r,f_g,f_b", [](double f, double, double) {
          return fmt::format("{:.9g},{:.9g},{:.9g}", f - 0.11, f + 0.1, f + 0.2);
        })}};
@@ -252,6 +251,28 @@ TEST(Columns, ThatHoldNoReflectanceAreMendedByTheCommandThatIsGiven) {
     ASSERT_EQ(gonio(f, "columns t.csv " + options).code, 0) << options;
     EXPECT_EQ(gonio(f, "inspect t.csv").out.find(said), std::string::npos) << options;
   }
+}
+
+TEST(Columns, WithTheLightsCosineAreMendedByExchangingTheDirectionsWhateverTheirNames) {
+  const std::string text =
+      paint_as("f", [](double f, double i, double) { return fmt::format("{:.12g}", f * i); });
+  const Folder f;
+  f.write("t.csv", "in,pin,out,pout,val" + text.substr(text.find('\n')));
+  ASSERT_EQ(gonio(f, "columns t.csv --map theta_i=in phi_i=pin theta_o=out phi_o=pout f=val").code,
+            0);
+  const std::string beware = gonio(f, "inspect t.csv").out;
+  EXPECT_NE(
+      beware.find("they look like f cos(theta_i) (in gonio columns FILE --map …, exchange the "
+                  "columns of theta_i and theta_o"),
+      beware.npos)
+      << beware;
+  EXPECT_EQ(beware.find("theta_i=theta_o"), beware.npos) << "the file has other names";
+  ASSERT_EQ(gonio(f,
+                  "columns t.csv --map theta_i=out phi_i=pout theta_o=in phi_o=pin f=val "
+                  "--cosine")
+                .code,
+            0);
+  EXPECT_EQ(gonio(f, "inspect t.csv").out.find("look like"), std::string::npos);
 }
 
 TEST(Columns, InJsonKeepTheirNamesAndHaveNoRangeWhereThereIsNoNumber) {

@@ -117,14 +117,15 @@ struct Cosines {
   const char* cure;
 };
 /// The first two, and the next two, keep what exchanging the directions changes; the last two change nothing by it.
-constexpr std::array cosines{Cosines{0, 1, "f cos(theta_o)", " (gonio columns FILE --cosine)"},
-                             Cosines{-1, 0, "f/cos(theta_i)", ""},
-                             Cosines{1, 0, "f cos(theta_i)",
-                                     " (gonio columns FILE --map theta_i=theta_o phi_i=phi_o "
-                                     "theta_o=theta_i phi_o=phi_i --cosine)"},
-                             Cosines{0, -1, "f/cos(theta_o)", ""},
-                             Cosines{1, 1, "f cos(theta_i) cos(theta_o)", ""},
-                             Cosines{-1, -1, "f/(cos(theta_i) cos(theta_o))", ""}};
+constexpr std::array cosines{
+    Cosines{0, 1, "f cos(theta_o)", " (gonio columns FILE --cosine)"},
+    Cosines{-1, 0, "f/cos(theta_i)", ""},
+    Cosines{1, 0, "f cos(theta_i)",
+            " (in gonio columns FILE --map …, exchange the columns of theta_i and theta_o, and of "
+            "phi_i and phi_o, and add --cosine)"},
+    Cosines{0, -1, "f/cos(theta_o)", ""},
+    Cosines{1, 1, "f cos(theta_i) cos(theta_o)", ""},
+    Cosines{-1, -1, "f/(cos(theta_i) cos(theta_o))", ""}};
 
 /// Slopes of ln f over the logarithms of both cosines, away from the highlight, and the spread of ln f before and
 /// after they are taken out.  Of a cosine that hardly changes the slope is 0.
