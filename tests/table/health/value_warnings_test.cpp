@@ -160,7 +160,7 @@ TEST(ValueWarnings, SayThatValuesAreRoundedCoarsely) {
     return said_of(painted(180),
                    [=](const auto&, double f) { return step * std::round(f / step); });
   };
-  EXPECT_TRUE(says(rounded(0.01), "rounded to steps of 0.01 1/sr, typically 3 % of a value"));
+  EXPECT_TRUE(says(rounded(0.01), "rounded to steps of 0.01 1/sr, typically 2.9 % of a value"));
   EXPECT_TRUE(rounded(0.001).empty());
   const auto one_digit = [](const auto&, double f) {
     const double place = std::pow(10, std::floor(std::log10(f)));
