@@ -5,7 +5,6 @@
 
 #include <array>
 #include <cstdint>
-#include <tuple>
 
 #include "base/describe.h"
 #include "base/names.h"

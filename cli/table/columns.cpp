@@ -54,7 +54,7 @@ void expect_columns(InputFile& in) {
                     "text with a line of at least two numbers");
 }
 
-/// What the side file says of the columns, if it does.
+/// Map of columns in the side file; none where there is none.
 std::optional<ColumnMap> known_map(const std::string& file) {
   const std::string side = side_text(file);
   return side.empty() ? std::nullopt : column_map(side_path(file), side);

@@ -8,12 +8,12 @@
 #include <optional>
 
 #include "base/error.h"
-#include "base/quantile.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/spec.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/solve/problem.h"
 #include "geometry/half_difference.h"
+#include "table/format/measured_by.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -93,12 +93,8 @@ std::vector<std::string> with_weights(const FitOptions& o, std::span<const std::
 double working_factor(const Table& t) {
   constexpr double small = 0.01;  // albedo of the brightest channel away from its highlight
   double brightest = 0;
-  for (const auto& plane : t.values) {
-    std::vector<double> sizes;
-    for (const double v : plane)
-      if (v > 0 && std::isfinite(v)) sizes.push_back(v);
-    if (!sizes.empty()) brightest = std::max(brightest, median(sizes));
-  }
+  for (const auto& plane : t.values)
+    brightest = std::max(brightest, typical_value(plane).value_or(0));
   return brightest > 0 ? small / (std::numbers::pi * brightest) : 1;
 }
 

@@ -23,7 +23,7 @@ FitOptions with_weights(FitOptions);
 /// Those of several models that can have weights, each once.  Throws wrong usage where none can.
 std::vector<std::string> with_weights(const FitOptions&, std::span<const std::string> models);
 
-/// What values are multiplied by so that a fit's kd and weights lie within their ranges.
+/// Factor on a table's values that brings kd and weights of its fit into their ranges.
 double working_factor(const Table&);
 /// True where one of them ended next to the end of its range: a smaller factor may serve.
 bool is_scale_too_large(const BoundModel& fitted);

@@ -5,7 +5,6 @@
 #include <map>
 #include <memory>
 #include <numbers>
-#include <tuple>
 
 #include "base/random.h"
 #include "brdf/catalogue/foreign_terms.h"

@@ -2,8 +2,6 @@
 /// \file
 /// Descriptions of what the pages of tables show.
 
-#include <tuple>
-
 #include "base/describe.h"
 #include "fitting/result/document_fields.h"
 #include "reports/pages/fit_page.h"

@@ -3,7 +3,6 @@
 /// Lines of CSV from fields (base/describe.h): what is one number, one text or one name of an enum has a column.
 
 #include <string>
-#include <tuple>
 #include <vector>
 
 #include "base/csv.h"

@@ -176,9 +176,9 @@ Table new_form(const JsonReader& data) {
   struct Column {
     std::size_t index;
     double scale = 1;
-    bool is_percent = false;  ///< of BRDF
   };
   std::map<std::string, Column> columns;
+  bool relative = false;  // uncertainties
   std::vector<std::size_t> labels;
   std::optional<std::size_t> polarisation;
   const auto variables = data.at("variables").elements();
@@ -194,7 +194,7 @@ Table new_form(const JsonReader& data) {
         v.at("unit").fail("deg or rad");
     }
     if (name == "BRDF" && unit.find('%') != unit.npos) v.at("unit").fail("1/sr");
-    if (name == "uBRDF") c.is_percent = unit.find('%') != unit.npos;
+    if (name == "uBRDF" && unit.find('%') != unit.npos) relative = true, c.scale = 0.01;
     if (name == "wavelength_i" && !unit.empty() && unit != "nm") v.at("unit").fail("nm");
     if (!columns.try_emplace(name, c).second) v.at("name").fail("each name once");
     if (name.starts_with("pol_") || name == "pol" || name == "observer") labels.push_back(k);
@@ -208,17 +208,13 @@ Table new_form(const JsonReader& data) {
   const std::array<Column, 4> angles{column("theta_i"), column("phi_i"), column("theta_r"),
                                      column("phi_r")};
   const Column f = column("BRDF");
-  const auto uncertainty = [&](const JsonReader& row, const Column& u) {
-    const double said = u.scale * uncertainty_in(row.at(u.index), row.at(f.index));
-    return u.is_percent ? said / 100 * std::abs(value_in(row.at(f.index))) : said;
-  };
   std::optional<Column> u;
   if (const auto at = columns.find("uBRDF"); at != columns.end()) {
     u = at->second;
     const auto& about = variables[u->index];
     if (about.has("description") && about.at("description").is_string() &&
         is_expanded(about.at("description").string()))
-      u->scale = 0.5;
+      u->scale /= 2;
   }
   const auto wavelength = columns.find("wavelength_i");
   Geometries all;
@@ -241,11 +237,14 @@ Table new_form(const JsonReader& data) {
             wavelength == columns.end()
                 ? 0
                 : number_within(row.at(wavelength->second.index), 1, 1e6, "a wavelength"),
-            value_in(row.at(f.index)), u ? uncertainty(row, *u) : std::nan(""));
+            value_in(row.at(f.index)),
+            u ? u->scale * uncertainty_in(row.at(u->index), row.at(f.index)) : std::nan(""));
     expect_room(row, all, 0);
   }
   expect_filled(rows, all);
   Table t = all.table("brdf_json");
+  if (relative)
+    for (std::size_t c = 0; c < t.errors.size(); ++c) make_absolute(t.errors[c], t.values[c]);
   tell_polarisation(polarised, t);
   return t;
 }

@@ -1,7 +1,6 @@
 #include "table/format/column_map.h"
 
 #include <algorithm>
-#include <tuple>
 
 #include "table/format/delimited.h"
 

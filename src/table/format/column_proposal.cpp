@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::string_view decimal_digits = "0123456789";
 
-/// Letters and decimal_digits alone, small: "Theta_i [deg]" is "thetaideg", "θi" is "thetai".
+/// Letters and digits only, in lower case: "Theta_i [deg]" is "thetaideg", "θi" is "thetai".
 std::string plain(std::string_view name) {
   std::string s;
   for (std::size_t k = 0; k < name.size(); ++k) {
@@ -119,7 +119,7 @@ constexpr std::array fillers{Words("in"),       Words("of"),          Words("the
 
 enum Angle { theta_i, phi_i, theta_o, phi_o, theta_h, phi_h, theta_d, phi_d };
 
-/// What a name says.
+/// Angle that the name of a column stands for.
 struct Said {
   std::optional<Angle> angle;
   bool beside = false;                   ///< the angle counts only where no other name says it

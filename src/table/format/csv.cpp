@@ -595,10 +595,8 @@ class CsvReader {
         throw bad_input(path_, "columns", fmt::format("no uncertainty of f_{}", t.channels[k]),
                         "u_f, or one for each f_NAME");
       t.errors.push_back(*of[k]);
-      const double least = role[k].relative ? least_sure_value(t.values[k]) : 0;
-      for (std::size_t i = 0; i < t.errors[k].size(); ++i)
-        t.errors[k][i] *=
-            role[k].factor * (role[k].relative ? std::max(std::abs(t.values[k][i]), least) : 1);
+      for (double& u : t.errors[k]) u *= role[k].factor;
+      if (role[k].relative) make_absolute(t.errors[k], t.values[k]);
       for (std::size_t i = 0; i < t.errors[k].size(); ++i)
         if (std::isfinite(t.values[k][i]) && !(t.errors[k][i] > 0))
           throw bad_input(path_, fmt::format("sample {}", i + 1), "a value without uncertainty",

@@ -78,12 +78,22 @@ void scale_values(Table& t, double factor) {
     };
 }
 
-double least_sure_value(const Values& plane) {
-  constexpr double of_typical = 1e-3;
+std::optional<double> typical_value(const Values& plane) {
   std::vector<double> sizes;
   for (const double v : plane)
     if (v > 0 && std::isfinite(v)) sizes.push_back(v);
-  return of_typical * (sizes.empty() ? 1 : median(sizes));
+  return sizes.empty() ? std::nullopt : std::optional(median(sizes));
+}
+
+double least_sure_value(const Values& plane) {
+  constexpr double of_typical = 1e-3;
+  return of_typical * typical_value(plane).value_or(1);
+}
+
+void make_absolute(Values& uncertainties, const Values& of) {
+  const double least = least_sure_value(of);
+  for (std::size_t i = 0; i < uncertainties.size(); ++i)
+    uncertainties[i] *= std::max(std::abs(of[i]), least);
 }
 
 void take_reference(Table& t, double reflectance) {

@@ -5,7 +5,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <tuple>
 #include <vector>
 
 #include "base/describe.h"
@@ -30,9 +29,14 @@ void scale_values(Table&, double factor);
 /// Throws wrong usage where R is not above 0, or above 2.
 void take_reference(Table&, double reflectance);
 
+/// Median of the values above 0; none where there are none.
+std::optional<double> typical_value(const Values&);
+
 /// Value that a relative uncertainty counts at least [1/sr]: a thousandth of the median, as what is next to nothing is not next
 /// to certain.
 double least_sure_value(const Values&);
+/// Turns the relative uncertainties of values into those in 1/sr.
+void make_absolute(Values& uncertainties, const Values& of);
 
 /// What options say of these.
 inline constexpr const char* aperture_in_words =

@@ -280,15 +280,15 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
         fmt::format("{} of {} values are 0, clipped noise or shadow: logarithms leave them out "
                     "(--metric l2_cosine counts them)",
                     zeros, values));
-  else if (lost.size() >= most_by_hand && different.size() == few_values &&
-           median(lost) > small_loss)
+  else if (const double typical = lost.empty() ? 0 : median(lost);
+           lost.size() >= most_by_hand && different.size() == few_values && typical > small_loss)
     all.push_back(fmt::format(
         "values are rounded to {}, typically {:.2g} % of a value: parameters may be off by more "
         "than their intervals",
         rounding.digits > 0
             ? fmt::format("{} significant digit{}", rounding.digits, rounding.digits > 1 ? "s" : "")
             : fmt::format("steps of {:.3g} 1/sr", rounding.absolute * std::sqrt(12)),
-        100 * median(lost)));
+        100 * typical));
 }
 
 /// A greatest value that many samples share, as they share no other, is where a detector was full.
