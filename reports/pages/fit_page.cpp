@@ -4,7 +4,6 @@
 #include <cmath>
 #include <numeric>
 #include <optional>
-#include <regex>
 
 #include "base/json/describe.h"
 #include "base/quantile.h"
@@ -80,8 +79,23 @@ std::vector<Row> rows_of(const FitDocument& d, const gonio::Table& t) {
 
 /// Options of the program, with what they are given, as code.
 std::string with_code(const std::string& text) {
-  static const std::regex option("--[a-z-]+( [^ ,;:]*[a-z0-9])?");
-  return std::regex_replace(text, option, "`$&`");
+  constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz-";
+  constexpr std::string_view last_of_a_value = "abcdefghijklmnopqrstuvwxyz0123456789";
+  std::string coded;
+  std::size_t done = 0;
+  for (std::size_t at; (at = text.find("--", done)) != text.npos;) {
+    std::size_t end = std::min(text.find_first_not_of(letters, at), text.size());
+    if (end < text.size() && text[end] == ' ') {
+      const std::string_view value =
+          std::string_view(text).substr(end, text.find_first_of(" ,;:", end + 1) - end);
+      if (const auto last = value.find_last_of(last_of_a_value); last != value.npos)
+        end += last + 1;
+    }
+    coded += text.substr(done, at - done);
+    coded += end > at + 2 ? "`" + text.substr(at, end - at) + "`" : text.substr(at, end - at);
+    done = end;
+  }
+  return coded + text.substr(done);
 }
 
 Points warnings(const FitDocument& d,
