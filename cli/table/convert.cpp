@@ -78,6 +78,8 @@ void print(const Table& from, const Conversion& c, const ConvertCall& o) {
   const Loss& l = c.loss;
   line("from", layout(from));
   line("to", layout(c.table));
+  for (const auto& [key, text] : from.notes)
+    if (key == "reference") line("reference", text);
   line("values", method(from, l, o.convert.reach_deg) + (l.rounded ? ", rounded to float" : ""));
   line("no data",
        fmt::format("{} of {} {} above the horizon{}", percent(l.without_data, l.bins), l.bins,

@@ -49,7 +49,8 @@ void print(const Table& t, const Health& h) {
   for (const auto& [key, text] : t.notes)
     if (key == "mask")
       line("left out", text);
-    else if (key == "agreement" || key.starts_with("TIS"))
+    else if (key == "agreement" || key == "channels" || key == "reference" ||
+             key.starts_with("TIS"))
       line(key.c_str(), text);
   if (t.aperture)
     line("aperture", fmt::format("light {:.3g}°, detector {:.3g}°: values are means over both",

@@ -168,14 +168,19 @@ std::size_t channel_named(const Table& t, const std::string& name) {
 
 void pick_channels(Table& t, const std::vector<std::string>& names) {
   std::vector<std::vector<double>> weights;
-  std::vector<std::string> picked;
+  std::vector<std::string> picked, nearest;
   for (const auto& name : names) {
     const std::size_t k = channel_named(t, name);
     if (std::ranges::find(picked, t.channels[k]) != picked.end())
       throw wrong_usage(fmt::format("channel '{}' twice", name));
     picked.push_back(t.channels[k]);
+    const auto asked = wavelength_with_unit(name), taken = wavelength_with_unit(t.channels[k]);
+    if (asked && taken && *asked != *taken)
+      nearest.push_back(fmt::format("{} is the nearest to {}", t.channels[k], name));
     weights.emplace_back(t.channels.size())[k] = 1;
   }
+  if (!nearest.empty())
+    t.notes.emplace_back("channels", fmt::format("{}", fmt::join(nearest, ", ")));
   mix(t, std::move(picked), weights);
 }
 

@@ -176,6 +176,8 @@ TEST(Channels, AreTakenByNameOrByTheNearestBand) {
   Table t = spectrum_from(400, 700, 50, true);
   pick_channels(t, {"561nm", "400"});
   EXPECT_EQ(t.channels, (std::vector<std::string>{"550", "400"}));
+  ASSERT_EQ(t.notes.size(), 1U);
+  EXPECT_EQ(t.notes[0].second, "550 is the nearest to 561nm");
   EXPECT_EQ(t.values[0][0], 0.25);
   EXPECT_EQ(t.errors[1][0], 0.01);
   for (const char* bad : {"900nm", "561", "r", ""})
