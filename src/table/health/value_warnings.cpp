@@ -11,6 +11,8 @@
 #include "base/quantile.h"
 #include "base/text.h"
 #include "table/format/column_map.h"
+#include "table/format/measured_by.h"
+#include "table/health/health.h"
 #include "table/health/rounding.h"
 
 #include <fmt/format.h>
@@ -332,6 +334,30 @@ void warn_of_negative_channel(TableFacts& facts, std::vector<std::string>& all) 
       t.format == "csv" ? fmt::format(" (gonio columns FILE --map{} leaves it out)", others) : ""));
 }
 
+/// A value that is said to be far surer than the others, which a fit then goes through.
+void warn_of_sure_values(const Table& t, std::vector<std::string>& all) {
+  constexpr double far = 30;  // below both the typical uncertainty and the typical part of a value
+  const double part = typical_uncertainty(t);
+  for (std::size_t c = 0; c < t.errors.size(); ++c) {
+    const Values &u = t.errors[c], &f = t.values[c];
+    const double typical = typical_value(u).value_or(0);
+    std::optional<std::size_t> surest;
+    std::size_t sure = 0;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      if (u[i] > 0 && f[i] > 0 && far * u[i] < typical && far * u[i] < part * f[i]) {
+        ++sure;
+        if (!surest || u[i] < u[*surest]) surest = i;
+      }
+    if (!surest) continue;
+    all.push_back(fmt::format(
+        "{} of {} stated uncertainties {} far below the others (sample {}: {:.2g} % of its value, "
+        "typically {:.2g} %): a fit passes through such values",
+        sure, t.size(), sure == 1 ? "is" : "are", *surest + 1, 100 * u[*surest] / f[*surest],
+        100 * part));
+    return;
+  }
+}
+
 }  // namespace
 
 std::optional<std::size_t> negative_channel(TableFacts& facts) {
@@ -367,6 +393,7 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   warn_of_zeros(facts, texts);
   warn_of_negative_channel(facts, texts);
   warn_of_full_detector(facts.table(), texts);
+  warn_of_sure_values(facts.table(), texts);
   std::vector<ValueWarning> all;
   for (auto& text : texts)
     all.push_back({std::move(text), all.size() < of_unit, all.size() < of_scale});

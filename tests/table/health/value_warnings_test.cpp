@@ -216,6 +216,24 @@ TEST(ValueWarnings, TellAChannelThatIsNegativeByItselfFromANoiseFloor) {
   EXPECT_GT(noise_floor(dark), 0);
 }
 
+TEST(Uncertainties, FarBelowTheOthersAreNamed) {
+  Table t = painted(360);
+  const auto said = [&] {
+    TableFacts facts(t);
+    const auto all = value_warnings(facts);
+    return std::ranges::any_of(
+        all, [](const ValueWarning& w) { return w.text.find("stated uncert") != w.text.npos; });
+  };
+  // Twice a part of the value, and once the same for all, though the highlight is then far surer.
+  for (const double of_value : {0.02, 0.3, 0.0}) {
+    t.errors = t.values;
+    for (double& u : t.errors[0]) u = of_value > 0 ? of_value * u : 1e-3;
+    EXPECT_FALSE(said()) << of_value;
+    t.errors[0][16] = 1e-9;
+    EXPECT_TRUE(said()) << of_value;
+  }
+}
+
 TEST(Reciprocity, KnowsNoAzimuthAtTheNormal) {
   Table t;
   t.format = "csv";
