@@ -234,6 +234,7 @@ FitResult fit_and_judge(const Table& t,
     facts.no_f = facts.no_f || w.of_unit;
     d.warnings.push_back(std::move(w.text));
   }
+  facts.odd_angle = lack.odd_angle;
   facts.beyond_stated = beside && !beside->holds;
   facts = with_table(std::move(facts), o, table, d);
   for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));

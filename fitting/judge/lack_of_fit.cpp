@@ -38,6 +38,41 @@ double noise_square(const Left& left) {
   return 2 * sizes.size() > left.values.size() ? std::pow(1.4826 * median(sizes), 2) : std::nan("");
 }
 
+/// A file of another scale shows so.  A wrong model misses several angles, and within one angle not by one factor.
+std::optional<OddAngle> odd_angle(const Left& left, const Sampling& s) {
+  constexpr std::size_t few_angles = 5, most_angles = 64, few_values = 8;
+  constexpr double least = 0.05;      // of a scale
+  constexpr double stands_out = 3;    // times as far as any other angle
+  constexpr double of_one_kind = .5;  // of the deviation, by which its values scatter
+  if (left.angles < few_angles || left.angles > most_angles) return {};
+  std::vector<std::vector<double>> off(left.angles);  // ln of data over model
+  std::vector<std::size_t> sample(left.angles);
+  for (const auto& v : left.values) {
+    if (!(v.change > 0)) continue;
+    const std::size_t a = left.units[v.unit].angle;
+    off[a].push_back(-v.whole / v.change);
+    sample[a] = v.sample;
+  }
+  std::vector<double> scale;
+  for (auto& values : off) {
+    if (values.size() < few_values) return {};
+    scale.push_back(median(values));
+  }
+  std::vector<double> sorted = scale;
+  const double typical = median(sorted);
+  for (double& x : scale) x -= typical;
+  const auto farther = [](double a, double b) { return std::abs(a) < std::abs(b); };
+  const auto odd = std::ranges::max_element(scale, farther);
+  const double deviation = std::exchange(*odd, 0.0);
+  const auto a = static_cast<std::size_t>(odd - scale.begin());
+  if (std::abs(deviation) < least ||
+      std::abs(deviation) < stands_out * std::abs(*std::ranges::max_element(scale, farther)))
+    return {};
+  for (double& x : off[a]) x = std::abs(x - deviation - typical);
+  if (1.4826 * median(off[a]) > of_one_kind * std::abs(deviation)) return {};
+  return OddAngle{SampleAngles(s.table()).theta_i(sample[a]) / degree, std::exp(deviation)};
+}
+
 /// Regressions that decide, the first of which is of single values where there is one.
 struct Tests {
   std::vector<std::pair<Errors, Regression>> all;
@@ -77,6 +112,7 @@ LackOfFit lack_of_fit(
   Misfit& m = found.misfit;
   bool by_logarithms = s.metric() == Metric::log;
   Left left = left_over(s, p, f, facts);
+  if (!s.table().truth) found.odd_angle = odd_angle(left, s);
   if (!by_logarithms && p.free.size() > 0 && !only_rounded(left.values) && find_variances(left) &&
       100 * left.without_logarithm <= left.values.size()) {
     // Whose squares weigh such noise unequally the highlight alone determines the parameters, whose

@@ -2,6 +2,7 @@
 /// \file
 /// Lack of fit: whether what a model leaves over follows the angles, which no noise does.
 
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,10 +15,17 @@
 
 namespace gonio {
 
+/// Incident angle whose values alone are another multiple of the model than those of all others.
+struct OddAngle {
+  double theta_i_deg;
+  double factor;  ///< data over model, beside that of the others
+};
+
 /// Misfit of a model, and what it does to the intervals.
 struct LackOfFit {
   Misfit misfit;
   double widening = 1;  ///< of the parameters' intervals, so that they include it
+  std::optional<OddAngle> odd_angle = {};
 };
 
 /// Residuals of the right model follow no angle, whatever the noise.  So these are regressed on smooth

@@ -83,6 +83,11 @@ std::vector<std::string> warnings(const FitOptions& o,
   std::vector<std::string> all;
   for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
+  if (const auto& odd = f.odd_angle)
+    all.push_back(fmt::format(
+        "values at theta_i {:.3g}° are {:.3g} × what the model and the other angles say: another "
+        "scale?",
+        odd->theta_i_deg, odd->factor));
   if (const auto& chi2 = d.residuals.chi2_per_freedom; chi2 && f.beyond_stated)
     all.push_back(fmt::format("what is left is {:.2g} times the stated uncertainties: {}",
                               std::sqrt(*chi2),

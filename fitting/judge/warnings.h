@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "fitting/judge/lack_of_fit.h"
 #include "fitting/result/document.h"
 #include "fitting/solve/options.h"
 #include "table/health/facts.h"
@@ -27,6 +28,7 @@ struct FitFacts {
   bool few_angles = false;     ///< whether they are too few for errors that an angle's values share
   bool beyond_stated = false;  ///< whether what is left is more than the table's own uncertainties
   bool copies = false;         ///< whether angles of the table only repeat another
+  std::optional<OddAngle> odd_angle = {};
   std::optional<Peak> retro = {};  ///< the highlight, where it is at wo = wi
   std::optional<Peak> unresolved =
       {};  ///< that of a narrow lobe, where the samples do not resolve it

@@ -495,6 +495,36 @@ TEST(LackOfFit, OfARippleThatNoSmoothFunctionFollowsIsToldBesideTheNoise) {
   EXPECT_FALSE(told(0));
 }
 
+TEST(OddAngle, IsNamedWhereOneFileOfSixHasAnotherScaleAndNeitherOfAWrongModelNorOfSmallScales) {
+  const auto odd = [](const char* model, const char* values, double at, double scale,
+                      double of_each) {
+    Table t = synthesize(test::bind(model, values, 1),
+                         {.layout = Layout::hemisphere, .noise = 0.02, .seed = 3});
+    t.truth.reset();  // as if measured
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      const double in = t.list()->theta_i_deg[i];
+      t.values[0][i] *= in == at ? scale : std::exp(of_each * std::cos(2 * in));
+    }
+    std::string named;
+    for (const auto& w : fit_of(t).warnings)
+      if (w.find("another scale?") != w.npos) named = w;
+    return named;
+  };
+  const char* const right = "alpha=0.3,f0=0.05,kd=0.2";
+  for (const double at : {0., 15., 45., 75.})
+    for (const double scale : {1.1, 0.7})
+      EXPECT_NE(odd(paint, right, at, scale, 0).find(fmt::format("theta_i {:g}°", at)),
+                std::string::npos)
+          << at << ' ' << scale;
+  EXPECT_EQ(odd(paint, right, -1, 1, 0.03), "");
+  EXPECT_EQ(odd("lambert+gtr/smith_ggx.correlated/schlick", "alpha=0.3,gamma=1.2,f0=0.05,kd=0.05",
+                -1, 1, 0),
+            "");
+  EXPECT_EQ(odd("lambert+beckmann/smith_beckmann.correlated/schlick", right, -1, 1, 0), "");
+  EXPECT_EQ(odd("lambert+ggx/smith_ggx.separable/schlick", "alpha=0.7,f0=0.3,kd=0.02", -1, 1, 0),
+            "");
+}
+
 TEST(LackOfFit, WidensTheIntervals) {
   Uncertainty u;
   u.std_error = {0.1, std::nan("")};
