@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/json/describe.h"
+#include "brdf/formula/scattering.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/own_files.h"
 #include "fitting/export/surface.h"
@@ -59,8 +60,7 @@ static_assert(describes_every_member<Export>());
 
 namespace {
 
-/// Most zenith angle of light and view, and that up to which a mean of f is taken [°].
-constexpr double most_zenith = 88, usual_zenith = 80;
+constexpr double most_zenith = 88;  ///< of light and view [°]
 
 /// Directions that are the same for every export: one half anywhere, the other around the mirror's.
 /// \param first  of the sequence; other ones where this is further than export_directions away
@@ -145,17 +145,15 @@ const Target& target_of(ExportTarget t) {
 
 }  // namespace
 
-std::vector<std::vector<double>> scale_of(const std::vector<std::vector<double>>& fit,
-                                          std::span<const FrameAngles<double>> at) {
-  const double least_cosine = std::cos(usual_zenith * degree);
-  auto scale = fit;
-  for (auto& channel : scale) {
-    double sum = 0, n = 0;
-    for (std::size_t i = 0; i < at.size(); ++i)
-      if (std::min(at[i].nol, at[i].nov) >= least_cosine) sum += channel[i], ++n;
-    for (double& f : channel) f = std::max({f, sum / n, std::numeric_limits<double>::min()});
+std::vector<std::vector<double>> scale_of(std::vector<std::vector<double>> f,
+                                          const Surface& surface) {
+  for (std::size_t c = 0; c < f.size(); ++c) {
+    double albedo = surface.kd[c];
+    for (const auto& l : surface.lobes) albedo += l.weight * schlick_average(l.f0[c]);
+    const double least = std::max(albedo / std::numbers::pi, std::numeric_limits<double>::min());
+    for (double& x : f[c]) x = std::max(x, least);
   }
-  return scale;
+  return f;
 }
 
 std::vector<DirectionPair> judged_directions() {
@@ -173,7 +171,7 @@ Export export_fit(ExportTarget to,
   const Surface surface = surface_of(fit);
   const auto judged = fixed_angles(0), fitted = fixed_angles(export_directions);
   const auto wanted = evaluate(fit, judged), learned = evaluate(fit, fitted);
-  const auto scale = scale_of(wanted, judged), learned_scale = scale_of(learned, fitted);
+  const auto scale = scale_of(wanted, surface), learned_scale = scale_of(learned, surface);
   Export best{to, path, fit.model.spec, {}, {}, tolerance};
   bool first = true;
   for (auto& form : target.forms(surface)) {

@@ -43,7 +43,7 @@ TargetForm core_form(const Surface& s) {
   }
   double diffuse = 0, specular = 0;
   for (std::size_t c = 0; c < s.channels; ++c) diffuse += s.kd[c], specular += reflected[c];
-  const bool metal = specular > diffuse;
+  const bool metal = !s.lobes.empty() && s.lobes.front().is_metal() && specular > diffuse;
   return {{{"base_color", metal ? reflected : s.kd},
            {"metallic", {metal ? 1.0 : 0.0}},
            {"roughness", {roughness}}},

@@ -141,17 +141,17 @@ std::vector<FrameAngles<double>> judged_angles() {
 /// Root mean square of the relative distance between glTF's f and the map's, which may be grey.
 double residual_of(const std::vector<std::vector<double>>& target,
                    const std::vector<std::vector<double>>& fit,
-                   std::span<const FrameAngles<double>> at) {
-  const auto scale = scale_of(fit, at);
+                   const Surface& surface) {
+  const auto scale = scale_of(fit, surface);
   double sum = 0;
   for (std::size_t c = 0; c < target.size(); ++c) {
     const std::size_t of_fit = fit.size() == target.size() ? c : 0;
-    for (std::size_t i = 0; i < at.size(); ++i) {
+    for (std::size_t i = 0; i < target[c].size(); ++i) {
       const double d = (target[c][i] - fit[of_fit][i]) / scale[of_fit][i];
       sum += d * d;
     }
   }
-  return std::sqrt(sum / static_cast<double>(target.size() * at.size()));
+  return std::sqrt(sum / static_cast<double>(target.size() * target[0].size()));
 }
 
 /// Does something for the texels of a map, on all threads: each(texel's number, model of the texel), from any thread.
@@ -329,8 +329,8 @@ MapExport export_map(const std::string& path, std::string& file) {
     tint.pixels[t] = bytes.tint;
     metal[t] = texel.metal;
     if (texel.known)
-      residuals[t] = static_cast<float>(
-          residual_of(form.values(parameters_of(bytes, e.ior), at), evaluate(model, at), at));
+      residuals[t] = static_cast<float>(residual_of(form.values(parameters_of(bytes, e.ior), at),
+                                                    evaluate(model, at), surface_of(model)));
   });
   e.metals = static_cast<std::size_t>(std::ranges::count(metal, 1));
   std::erase_if(residuals, [](float r) { return std::isnan(r); });

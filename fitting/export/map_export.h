@@ -17,7 +17,7 @@ struct MapExport {
   std::size_t metals =
       0;  ///< texels whose highlight is stronger than their diffuse colour: metallic is 1
   double ior = 1.5;  ///< of the strongest highlight of all texels that are no metals
-  /// Distance of the textures' eight bits, by glTF's own equations, from the map's f: root mean square by texel, relative to f or its mean, at
+  /// Distance of the textures' eight bits, by glTF's own equations, from the map's f: root mean square by texel, relative as scale_of says, at
   /// 32 pairs of directions up to 80°.  Of the texels the median, and what one in 20 is beyond.
   double median_residual = 0, high_residual = 0;
   std::vector<std::string> lost;  ///< what glTF cannot express, in sentences

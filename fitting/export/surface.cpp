@@ -167,10 +167,12 @@ std::vector<std::string> lost_by_all(const BoundModel& fit,
                                      std::initializer_list<std::string_view> diffuse,
                                      std::string_view diffuse_name) {
   bool exponent = false, distribution = false, masked = false, shape = false;
-  for (const auto& l : fit.model.lobes) {
+  for (std::size_t n = 0; n < fit.model.lobes.size(); ++n) {
+    const auto& l = fit.model.lobes[n];
     const auto id = short_id(catalogue()[l.ndf.term].id());
     const bool has_exponent = id == "gtr" || id == "student_t" || id == "shape_invariant";
-    exponent |= has_exponent;
+    const auto* gamma = fit.model.find(n == 0 ? "gamma" : "gamma_" + std::to_string(n + 1));
+    exponent |= has_exponent && !(id == "gtr" && gamma && fit.values[gamma->slot(0)] == 2);
     distribution |= !has_exponent && id != "ggx" && id != "ggx_aniso";
     const auto g = short_id(catalogue()[l.masking.term].id());
     masked |= !(g.starts_with("smith_ggx") && g.ends_with(masking));

@@ -50,9 +50,12 @@ struct Target {
 extern const Target gltf_target, mitsuba_target, standard_surface_target, open_pbr_target,
     usd_preview_target;
 
-/// What a distance between two f is relative to: f, or its mean in that channel over directions up to 80° where that is larger.
-std::vector<std::vector<double>> scale_of(const std::vector<std::vector<double>>& f,
-                                          std::span<const FrameAngles<double>>);
+/// What a distance between two f is relative to: f, or where that is larger the f of a matte surface that returns about as much light,
+///
+///   (kd + Σ weight F_avg)/π   with F_avg of Schlick's approximation
+///
+/// A mean of f would be that of its highlight, beside which everything else counts as nothing.
+std::vector<std::vector<double>> scale_of(std::vector<std::vector<double>> f, const Surface&);
 
 /// Value of a parameter by its name: of a channel, or the only one.  0 where there is none.
 double parameter_in(const TargetParameters&, std::string_view name, std::size_t channel = 0);

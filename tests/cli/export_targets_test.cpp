@@ -8,6 +8,8 @@
 #include "cli/outside.h"
 #include "cli/program.h"
 #include "fitting/export/export.h"
+#include "fitting/export/surface.h"
+#include "fitting/export/target.h"
 #include "geometry/half_difference.h"
 
 #include <fmt/format.h>
@@ -67,19 +69,19 @@ F values_of_target(const Folder& f,
   return rows;
 }
 
-ExportResidual distance(const F& target, const F& fit) {
+/// \param f  where the fit is: its surface is what distances are relative to, where its own values are small
+ExportResidual distance(const F& target, const F& fit, const Folder& f) {
+  const std::string path = f / "fit.json";
+  const Surface like = surface_of(bind_fitted(path, read_fitted_model(path), 3));
   ExportResidual r;
   if (target.size() != fit.size()) return {-1, -1, {}};
   double sum = 0;
   for (std::size_t c = 0; c < 3; ++c) {
-    double mean = 0, n = 0;
+    std::vector<double> of_channel;
+    for (const auto& x : fit) of_channel.push_back(x[c]);
+    const auto scale = scale_of(std::vector(3, of_channel), like)[c];
     for (std::size_t i = 0; i < fit.size(); ++i) {
-      const auto& [light, view] = judged_directions()[i];
-      if (std::min(light.z, view.z) >= std::cos(80 * degree)) mean += fit[i][c], ++n;
-    }
-    mean /= n;
-    for (std::size_t i = 0; i < fit.size(); ++i) {
-      const double d = std::abs(target[i][c] - fit[i][c]) / std::max(fit[i][c], mean);
+      const double d = std::abs(target[i][c] - fit[i][c]) / scale[i];
       sum += d * d;
       r.largest = std::max(r.largest, d);
     }
@@ -112,12 +114,12 @@ struct Held {
     const auto variants = o.json().value("variants", nlohmann::json::array());
     for (const auto& v : variants) {
       SCOPED_TRACE(v["variant"]);
-      expect_near(distance(values_of_target(folder, script, file, v["variant"]), fit),
+      expect_near(distance(values_of_target(folder, script, file, v["variant"]), fit, folder),
                   v["residual"], of_spectra);
     }
     if (variants.empty())
-      expect_near(distance(values_of_target(folder, script, file), fit), o.json()["written"],
-                  slack);
+      expect_near(distance(values_of_target(folder, script, file), fit, folder),
+                  o.json()["written"], slack);
     return o.json();
   }
   /// The distance of the file with one thing in it replaced.
@@ -127,7 +129,9 @@ struct Held {
     EXPECT_NE(at, text.npos) << found << " in\n" << text;
     if (at == text.npos) return -1;
     folder.write("fault_" + file, text.replace(at, found.size(), by));
-    return distance(values_of_target(folder, script, "fault_" + file), values_of_fit(folder)).rms;
+    return distance(values_of_target(folder, script, "fault_" + file), values_of_fit(folder),
+                    folder)
+        .rms;
   }
 };
 
@@ -164,8 +168,9 @@ TEST(ExportToMitsuba, KeepsAGreyPlasticsHighlightInSpectralVariants) {
   const Held held{f, "mitsuba", "m.xml", "mitsuba_values.py"};
   held("lambert+ggx/smith_ggx.separable/dielectric", "alpha=0.3,eta=1.5,kd=0.2");
   const auto fit = values_of_fit(f);
-  EXPECT_LT(distance(values_of_target(f, "mitsuba_values.py", "m.xml", "scalar_spectral"), fit).rms,
-            0.01);
+  EXPECT_LT(
+      distance(values_of_target(f, "mitsuba_values.py", "m.xml", "scalar_spectral"), fit, f).rms,
+      0.01);
 }
 
 TEST(ExportToMitsuba, ShowsAWrongFactorInMitsuba) {
@@ -254,11 +259,11 @@ TEST(ExportToGltf, IsNearTheFitInAnotherProgramAndFarWithAWrongFactor) {
     write_fit(f, model, set);
     const auto o = gonio(f, "export fit.json --to gltf -o m.gltf");
     EXPECT_EQ(o.code, 0) << o.err;
-    return distance(values_of_target(f, "gltf_values.py", "m.gltf"), values_of_fit(f)).rms;
+    return distance(values_of_target(f, "gltf_values.py", "m.gltf"), values_of_fit(f), f).rms;
   };
   const auto rms_with = [&](auto&& change) {
     write_fault(f, change);
-    return distance(values_of_target(f, "gltf_values.py", "fault.gltf"), values_of_fit(f)).rms;
+    return distance(values_of_target(f, "gltf_values.py", "fault.gltf"), values_of_fit(f), f).rms;
   };
   EXPECT_LT(rms_of("ggx_aniso/smith_ggx_aniso.correlated/schlick",
                    "alpha_x=0.05,alpha_y=0.12,f0=0.9,0.6,0.3,tangent=20"),
@@ -303,7 +308,7 @@ double rms_in_blender(const Folder& f, const std::string& file) {
     seen.push_back(x);
   }
   EXPECT_GE(seen.size(), 1000U);
-  return distance(seen, values_of_fit(f, angles)).rms;
+  return distance(seen, values_of_fit(f, angles), f).rms;
 }
 
 // Blender's Principled node reads glTF's parameters under equations of its own: exact Fresnel,
@@ -410,11 +415,11 @@ TEST(PlanInMaterialX, LeavesOutWhatIsDroppedAndStaysNearBothModels) {
         {"schema", "gonio.fit/1"}, {"model", m["spec"]}, {"channels", {"r", "g", "b"}}};
     for (const auto& [of, value] : m["parameters"].items()) fit["parameters"][of]["value"] = value;
     f.write("fit.json", fit.dump());
-    const auto planned = distance(both.planned, values_of_fit(f)).rms;
+    const auto planned = distance(both.planned, values_of_fit(f), f).rms;
     EXPECT_LT(planned, c.planned_rms);
     if (c.exact_rms == 0) continue;  // a fit has no coat
     write_fit(f, c.model, c.set);
-    const auto exact = distance(both.exact, values_of_fit(f)).rms;
+    const auto exact = distance(both.exact, values_of_fit(f), f).rms;
     EXPECT_LT(exact, c.exact_rms);
   }
 }
