@@ -69,6 +69,16 @@ std::string compare_for_page(const PageRequest& r,
   return to_json(choice, advise(choice), compared_table(in.table, how.options));
 }
 
+/// The document, and the values that the page draws: also of parameters that the document has none of, being one of many.
+Json fit_for_page(const FitResult& r) {
+  Json optimum = Json::object();
+  for (const auto& p : r.model.model.parameters) {
+    const auto first = r.model.values.begin() + static_cast<std::ptrdiff_t>(p.first);
+    optimum[p.name] = std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count));
+  }
+  return {{"document", to_json(r.document)}, {"optimum", std::move(optimum)}};
+}
+
 }  // namespace
 
 std::string answer_page(const std::string& request,
@@ -81,7 +91,7 @@ std::string answer_page(const std::string& request,
     case PageCommand::read:
       return line_of(read_for_page(r, how, phase));
     case PageCommand::fit:
-      return to_json(fit_files({r.file}, how, phase).result.document);
+      return line_of(fit_for_page(fit_files({r.file}, how, phase).result));
     case PageCommand::models:
       return compare_for_page(r, how, phase);
   }

@@ -16,7 +16,7 @@ namespace gonio {
 enum class PageCommand {
   read,  ///< the table as explorer pages hold it, its inspection, and for text what its columns may
          ///< be
-  fit,   ///< gonio.fit/1
+  fit,   ///< gonio.fit/1 as text, and the optimum's values by parameter
   models  ///< gonio.models/1
 };
 template <>

@@ -65,7 +65,8 @@ function asked_words() {
 }
 
 /// Values, intervals and all that a fit says, as an entry of the page.
-function fitted(text, name, table) {
+/// \param optimum  values by parameter and channel, also of those that the document has none of; {} of a document alone
+function fitted(text, name, table, optimum) {
   const d = JSON.parse(text), n = d.channels.length, shown_here = table?.channels.every((c) => d.channels.includes(c));
   const channels = shown_here ? table.channels : n === 1 || n === 3 ? d.channels : n === 2 ? d.channels.slice(0, 1) : [0, n >> 1, n - 1].map((k) => d.channels[k]);
   const of = (list) => (Array.isArray(list) ? channels.map((c) => list[Math.max(d.channels.indexOf(c), 0)]) : [list]);
@@ -73,10 +74,11 @@ function fitted(text, name, table) {
   for (const [key, p] of Object.entries(d.parameters)) {
     const v = of(p.value), known = v.filter(Number.isFinite);
     v.forEach((x, c) => { if (!Number.isFinite(x)) unknown.push(v.length > 1 ? `${key}.${channels[c]}` : key); });
-    if (known.length) values[key] = v.map((x) => (Number.isFinite(x) ? x : known.reduce((a, b) => a + b) / known.length));
+    const found = optimum[key] && (optimum[key].length > 1 ? of(optimum[key]) : v.map(() => optimum[key][0]));
+    if (found ?? known.length) values[key] = v.map((x, c) => (Number.isFinite(x) ? x : found ? found[c] : known.reduce((a, b) => a + b) / known.length));
     if (p.ci95) intervals[key] = Array.isArray(p.value) ? of(p.ci95) : [p.ci95];
   }
-  const said = unknown.length ? `The fit has no value for ${unknown.join(", ")}: it begins with another.` : "";
+  const said = !unknown.length ? "" : Object.keys(optimum).length ? `Not known: ${unknown.join(", ")}. The value here is one of many that fit as well.` : `The fit has no value for ${unknown.join(", ")}: it begins with another.`;
   return { kind: "model", name, spec: d.model, values, intervals, channels, said, document: text };
 }
 /// Shows a fit in place of the model that was fitted, or beside what is there.
@@ -117,9 +119,9 @@ function show_fit(text, table) {
 }
 async function fit_table(model) {
   const [table, item] = fit_pair(), spec = model ?? item.about.spec;
-  const text = await ask({ do: "fit", file: page.items[table.place].name, options: { ...asked_words(), model: [spec] } }, await files_of(table));
+  const { document: text, optimum } = JSON.parse(await ask({ do: "fit", file: page.items[table.place].name, options: { ...asked_words(), model: [spec] } }, await files_of(table)));
   const other = JSON.parse(text).input?.sha256, own = page.items[table.place].sha256;
-  take_fit(fitted(text, spec === item.about.spec ? item.name : spec, page.items[table.place]), item), show_fit(text, table);
+  take_fit(fitted(text, spec === item.about.spec ? item.name : spec, page.items[table.place], optimum), item), show_fit(text, table);
   say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.` : "Fitted.");
 }
 async function compare_models() {
@@ -147,7 +149,7 @@ async function read_files(list) {
     if (f.name.endsWith(".gonio.json")) continue;
     if (f.name.endsWith(".json") && f.size < 1e7) {
       const text = await f.text();
-      if (text.includes('"gonio.fit/1"')) { take_fit(fitted(text, f.name, page.items[fit_pair()?.[0].place])); continue; }
+      if (text.includes('"gonio.fit/1"')) { take_fit(fitted(text, f.name, page.items[fit_pair()?.[0].place], {})); continue; }
     }
     await read_table({ name: f.name, bytes: f, side: sides.get(f.name) ?? "" });
   }

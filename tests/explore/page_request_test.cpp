@@ -34,16 +34,31 @@ TEST(PageRequest, FitIsTheProgramsOwn) {
   how.options.model = "lambert";
   how.options.robust = true;
   std::vector<std::string> phases;
-  const auto document =
-      answer_page(json{{"do", "fit"},
-                       {"file", file},
-                       {"options", {{"model", {"lambert"}}, {"robust", {"huber"}}}}}
-                      .dump(),
-                  [&](const std::string& what) { phases.push_back(what); });
+  const auto answer = answer_page(json{{"do", "fit"},
+                                       {"file", file},
+                                       {"options", {{"model", {"lambert"}}, {"robust", {"huber"}}}}}
+                                      .dump(),
+                                  [&](const std::string& what) { phases.push_back(what); });
+  const std::string document = json::parse(answer)["document"];
   EXPECT_EQ(steady(document), steady(to_json(fit_files({file}, how).result.document)));
+  EXPECT_EQ(json::parse(answer)["optimum"]["kd"][0], steady(document)["parameters"]["kd"]["value"]);
   EXPECT_EQ(steady(document)["robust"], "huber");
   ASSERT_FALSE(phases.empty());
   EXPECT_EQ(phases[0], "reading " + file);
+}
+
+TEST(PageRequest, FitHasTheValuesThatItsPageDraws) {
+  const test::Folder f;
+  // A single view in the mirror's direction knows no width.
+  const auto file =
+      f.write("t.csv", "theta_i,phi_i,theta_o,phi_o,f\n30,0,30,180,0.3\n40,0,40,180,0.31\n");
+  const auto answer =
+      json::parse(asked({{"do", "fit"},
+                         {"file", file},
+                         {"options", {{"model", {"ggx/smith_ggx.correlated/schlick"}}}}}));
+  const auto document = json::parse(answer["document"].get<std::string>());
+  EXPECT_TRUE(document["parameters"]["alpha"]["value"].is_null());
+  EXPECT_TRUE(answer["optimum"]["alpha"][0].is_number());
 }
 
 TEST(PageRequest, ReadsATableAndGuessesColumns) {
