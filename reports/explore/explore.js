@@ -709,6 +709,7 @@ function from_address() {
     }
     kept = state();
     connect(), show_buttons();
+    show_document(page.items.find((data) => data.document));
   } catch (error) {
     say(`This page could not start: ${error.message}`, true);
   }

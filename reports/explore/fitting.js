@@ -117,6 +117,11 @@ function show_fit(text, table) {
     make("div", { class: "controls" }, saver("Save as JSON", `${table.name}.fit.json`, text)));
   $("fitted").hidden = false;
 }
+/// What a fit that came as a document says, beside a table.
+function show_document(data) {
+  const table = can_fit && data?.document && fit_pair()?.[0];
+  if (table) show_fit(data.document, table);
+}
 async function fit_table(model) {
   const [table, item] = fit_pair(), spec = model ?? item.about.spec;
   const { document: text, optimum } = JSON.parse(await ask({ do: "fit", file: page.items[table.place].name, options: { ...asked_words(), model: [spec] } }, await files_of(table)));
@@ -149,7 +154,7 @@ async function read_files(list) {
     if (f.name.endsWith(".gonio.json")) continue;
     if (f.name.endsWith(".json") && f.size < 1e7) {
       const text = await f.text();
-      if (text.includes('"gonio.fit/1"')) { take_fit(fitted(text, f.name, page.items[fit_pair()?.[0].place], {})); continue; }
+      if (text.includes('"gonio.fit/1"')) { take_fit(fitted(text, f.name, page.items[fit_pair()?.[0].place], {})), show_document(page.items.at(-1)); continue; }
     }
     await read_table({ name: f.name, bytes: f, side: sides.get(f.name) ?? "" });
   }

@@ -59,7 +59,8 @@ Json page_json(const ExploredModel& m) {
                        ? ""
                        : fmt::format("The fit has no value for {}: it begins with another.",
                                      fmt::join(m.undetermined, ", "))},
-          {"intervals", intervals}};
+          {"intervals", intervals},
+          {"document", m.document}};
 }
 
 /// Gives values that a fit could not determine one to begin with; answers which.
@@ -120,11 +121,14 @@ ExploredModel explore_model(const std::string& name,
   }
   if (m.model.model.model.channels != 1 && m.model.model.model.channels != 3)
     throw bad_input(name, "channels", std::to_string(m.model.model.model.channels),
-                    "1 or 3: more are not drawn");
+                    "1 or 3, as more are not drawn: gonio fit --channels takes three");
   if (!is_file || !name.ends_with(".json")) return m;
   const JsonDocument document(name);
   const JsonReader& root = document.root();
   if (!root.has("parameters")) return m;
+  constexpr std::uintmax_t longest = 1 << 20;
+  if (root.has("next") && std::filesystem::file_size(name) <= longest)
+    m.document = InputFile(name).read_rest();
   for (const auto& [of, parameter] : root.at("parameters").members()) {
     auto all = intervals_in(parameter);
     if (!all.empty() && m.model.model.model.find(of)) m.intervals.emplace_back(of, std::move(all));

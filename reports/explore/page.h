@@ -24,6 +24,7 @@ struct ExploredModel {
   std::vector<std::pair<std::string, std::vector<std::array<double, 2>>>> intervals;
   /// Values that the fit could not determine ("kd.b"): they begin where the other channels are, or where a fit begins.
   std::vector<std::string> undetermined = {};
+  std::string document = {};  ///< of a fit, for what it says; "" of a long one
 };
 
 using Explored = std::variant<ExploredModel, ExploredTable>;

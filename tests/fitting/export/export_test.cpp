@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <string>
 #include <tuple>
 
 #include "base/error.h"
@@ -106,6 +107,26 @@ TEST(ExportedFit, WritesSpectraForMitsubaWhoseColourIsTheIndexs) {
   const auto file = file_of(e, R"({"schema": "gonio.fit/1"})");
   EXPECT_EQ(file.find("<rgb"), file.npos) << "an index is no reflectance";
   EXPECT_NE(file.find("<spectrum name=\"eta\" value=\"360:"), file.npos) << file;
+}
+
+TEST(ExportedFit, OfDarkGlossyPlasticIsNoMetalInAnyTarget) {
+  // The mean of f is that of the highlight: beside it the base would count as nothing.
+  for (const std::string alpha : {"0.02", "0.05", "0.1"})
+    for (std::size_t i = 0; i < names_of<ExportTarget>.size(); ++i) {
+      const auto to = static_cast<ExportTarget>(i);
+      const auto e = export_fit(to, "fit.json",
+                                bound("lambert+ggx/smith_ggx.correlated/schlick",
+                                      ("kd=0.03,0.03,0.03,f0=0.05,alpha=" + alpha).c_str()),
+                                0.02);
+      SCOPED_TRACE(std::string(name_of(to)) + " " + alpha);
+      for (const auto& [name, values] : e.parameters) {
+        if (name == "metallic" || name == "base_metalness" || name == "metalness")
+          EXPECT_EQ(values[0], 0);
+        if (name == "base_color" || name == "diffuseColor" || name == "reflectance")
+          EXPECT_NEAR(values[0], 0.03, 0.01) << name;
+      }
+      EXPECT_LT(e.written.rms, 0.1);
+    }
 }
 
 TEST(ExportedFit, IsRefusedWithTwoChannels) {
