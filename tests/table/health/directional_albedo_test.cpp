@@ -51,5 +51,37 @@ TEST(AlbedoOfATable, IsWithinItsErrorWhereSamplesAreFurtherApartThanTheHighlight
   }
 }
 
+/// A metal in rings around the normal, every `step` degrees.
+Table rings(double alpha, double step) {
+  DirectionList l;
+  for (const double in : {0.0, 20.0})
+    for (double out = 0; out < 88; out += step)
+      for (double phi = 0; phi < (out > 0 ? 360 : 1); phi += 10) {
+        l.theta_i_deg.push_back(in);
+        l.phi_i_deg.push_back(0);
+        l.theta_o_deg.push_back(out);
+        l.phi_o_deg.push_back(phi);
+      }
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  t.where = std::move(l);
+  test::put_values(
+      t, bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {alpha}}, {"f0", {1}}}, 1));
+  return t;
+}
+
+TEST(AlbedoOfATable, IsSaidOfAListOnlyAsFarAsItsRingsShowTheHighlight) {
+  for (const double alpha : {0.01, 0.02, 0.05, 0.1, 0.3})
+    for (const double step : {2.0, 5.0, 10.0})
+      for (const auto& a : directional_albedo(rings(alpha, step))) {
+        const double truth = alpha < 0.2 ? 0.99 : 0.88;  // by `gonio albedo`, to 0.01
+        EXPECT_NEAR(a.albedo[0], truth, a.error + 0.02) << alpha << " " << step;
+      }
+  EXPECT_TRUE(directional_albedo(rings(0.02, 5)).empty())
+      << "a hundredth of the hemisphere decides";
+  EXPECT_EQ(directional_albedo(rings(0.3, 5)).size(), 2U);
+}
+
 }  // namespace
 }  // namespace gonio
