@@ -78,6 +78,8 @@ class LaneFit {
   std::array<Column<float>, 11> angles_;
   std::array<Column<float>, max_channels> target_, weight_;
   Column<float> light_, view_, cosine_, slope_, frame_, base_, turn_, tilt_;
+  std::vector<bool> is_middle_;  ///< [slot]: a diffuse term's own, one for all channels
+  bool has_middles_ = false;
   std::vector<std::uint8_t> usable_;  ///< [sample][lane]: above the surface
   LaneSamples samples_;
   std::array<float, padding> count_{};  ///< of values
@@ -123,6 +125,14 @@ LaneFit::LaneFit(const TexelTask& task,
   base_ = Column<float>(9 * padding);
   turn_ = Column<float>(4 * padding);
   tilt_ = Column<float>(2 * padding);
+  is_middle_.resize(task.model().value_count);
+  for (const auto& d : task.model().diffuse)
+    for (const std::size_t k : d.parameters) {
+      const auto& q = task.model().parameters[k];
+      const bool scalar = q.count == 1 && !task.is_shape[q.first];
+      is_middle_[q.first] = scalar && task.problem.free.mask()[q.first];
+      has_middles_ = has_middles_ || is_middle_[q.first];
+    }
   usable_.resize(room);
 
   values_ = Column<float>(task.model().value_count * padding);
@@ -433,9 +443,8 @@ void LaneFit::find_start(std::span<const TexelTask::Start> starts) {
         std::copy_n(row(tilt_, s - slots), padding, state_.tried + i * padding);
         continue;
       }
-      std::fill_n(
-          state_.tried + i * padding, padding,
-          std::clamp(static_cast<float>(task_.problem.start.values[s]), u.low[i], u.high[i]));
+      const auto x = static_cast<float>(task_.problem.start.values[s]);
+      std::fill_n(state_.tried + i * padding, padding, std::clamp(x, u.low[i], u.high[i]));
     }
   };
   begin();
@@ -487,6 +496,16 @@ void LaneFit::fit(std::span<const std::size_t> texels,
     if (task_.asked.refine_normals && in_.normal.empty()) {
       find_tilt();
       find_starts();
+      // A diffuse roughness of 0 does not move.
+      const auto& u = task_.unknowns;
+      const auto tilted = begins;
+      for (const float part : {0.1F, 0.2F, 0.4F})
+        for (std::size_t g = tilted.size() / 2; has_middles_ && g < tilted.size(); ++g) {
+          auto& x = begins.emplace_back(tilted[g]);
+          for (std::size_t i = 0; i < n(); ++i)
+            if (u.slot[i] < is_middle_.size() && is_middle_[u.slot[i]])
+              std::fill_n(x.data() + i * padding, padding, std::lerp(u.low[i], u.high[i], part));
+        }
     }
   }
   in_logarithms();

@@ -182,7 +182,7 @@ class AroundOneLight {
     double theta_h;
     std::size_t number;  ///< in the table
   };
-  /// Samples within reach, or null: the nearest, the next, and the nearest on the other side in θ_h.
+  /// The nearest sample, the next, and the nearest on the other side in θ_h; all null where the first is out of reach.
   struct Near {
     const Sample *first = nullptr, *second = nullptr, *across = nullptr;
   };
@@ -193,19 +193,20 @@ class AroundOneLight {
   }
 
   Near near(const Direction& wo, double theta_h) const {
-    const double zenith = theta_of(wo), margin = reach_deg * degree + 1e-6;
+    constexpr double far_deg = 3 * reach_deg;  // of those beside the nearest
+    const double zenith = theta_of(wo), margin = far_deg * degree + 1e-6;
     const double highest = zenith < margin ? 1.0 : std::cos(zenith - margin);
-    const double reach = std::cos(reach_deg * degree);
+    const double reach = std::cos(reach_deg * degree), far = std::cos(far_deg * degree);
     Near n;
     std::array<double, 2> closeness{-1, -1};  // of the first and the second
-    const Sample *inside = nullptr, *outside = nullptr;
-    std::array<double, 2> closest{-1, -1};  // of these two
+    std::array<const Sample*, 2> side{};      // the nearest within and without its θ_h
+    std::array<double, 2> closest{-1, -1};
     auto s = std::ranges::lower_bound(all_, std::cos(zenith + margin), {}, height);
     for (; s != all_.end() && s->wo.z <= highest; ++s) {
       const double c = dot(s->wo, wo);
-      if (c < reach) continue;
-      const bool is_outside = s->theta_h > theta_h;
-      if (c > closest[is_outside]) closest[is_outside] = c, (is_outside ? outside : inside) = &*s;
+      if (c < far) continue;
+      const bool without = s->theta_h > theta_h;
+      if (c > closest[without]) closest[without] = c, side[without] = &*s;
       if (c > closeness[0] || (c == closeness[0] && s->number < n.first->number)) {
         n.second = n.first, closeness[1] = closeness[0];
         n.first = &*s, closeness[0] = c;
@@ -213,7 +214,8 @@ class AroundOneLight {
         n.second = &*s, closeness[1] = c;
       }
     }
-    if (n.first) n.across = n.first->theta_h > theta_h ? inside : outside;
+    if (!(closeness[0] >= reach)) return {};
+    n.across = side[n.first->theta_h > theta_h ? 0 : 1];
     return n;
   }
 
@@ -258,6 +260,7 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
     a.phi_i_deg = incident.second;
     double most = 0;
     for (const double v : a.albedo) most = std::max(most, v);
+    a.error += (1 - a.coverage) / 2 * most;  // what lacks may be half or half as much again
     constexpr double known = 1 / 3.0;  // a peak between samples farther apart cannot be integrated
     if (!(a.error > known * most)) found[k] = std::move(a);
   });

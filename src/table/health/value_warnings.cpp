@@ -95,6 +95,7 @@ std::string without_channel(const Table& t, std::size_t channel) {
 void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& all) {
   const Table& t = facts.table();
   const auto unit = [&](double light) { return divided ? "" : unit_of(t, light); };
+  constexpr double rounding = 1e-9;
   double most = 0, at = 0, whole = 0, shown = 0;
   std::size_t brightest = 0;
   std::vector<double> of_channel(t.channels.size());
@@ -105,7 +106,7 @@ void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& al
       whole = std::max(whole, v);
       of_channel[c] = std::max(of_channel[c], v);
       const double sure = (v - a.error) * a.coverage;
-      if (sure > most) most = sure, at = a.theta_i_deg, shown = v, brightest = c;
+      if (sure > most * (1 + rounding)) most = sure, at = a.theta_i_deg, shown = v, brightest = c;
     }
   double others = 0;
   for (std::size_t c = 0; c < of_channel.size(); ++c)
@@ -285,36 +286,30 @@ bool highlight_falls(TableFacts& facts) {
   if (!peak) return false;
   const Table& t = facts.table();
   const SampleAngles at(t);
-  struct Sample {
-    double theta_d_deg, theta_h_deg, f;
-  };
-  std::vector<Sample> ridge;
+  constexpr double falls = 2.5, apart_deg = 20, alike_deg = 0.1;
+  std::map<long, std::vector<std::pair<double, double>>> ridge;  // by θ_h: θ_d [°] and f
   for (std::size_t i = 0; i < t.size(); ++i) {
     const auto a = at(i);
     const double theta_h_deg = std::asin(std::sqrt(std::min(a.sin2_theta_h, 1.0))) / degree;
     if (!(theta_h_deg < peak->half_width_deg)) continue;
     if (const double f = value_of_all(t, a, i); f > 0)
-      ridge.push_back({std::acos(std::clamp(a.voh, 0.0, 1.0)) / degree, theta_h_deg, f});
+      ridge[std::lround(theta_h_deg / alike_deg)].emplace_back(
+          std::acos(std::clamp(a.voh, 0.0, 1.0)) / degree, f);
   }
-  constexpr std::size_t few = 9, fewest = 3;
-  constexpr double falls = 2.5, apart_deg = 20, alike_deg = 0.1;
-  if (ridge.size() < few) return false;
-  std::ranges::sort(ridge, {}, &Sample::theta_d_deg);
-  const std::size_t third = ridge.size() / 3, upper = ridge.size() - third;
-  if (ridge[upper].theta_d_deg - ridge[third].theta_d_deg < apart_deg) return false;
-  std::map<long, std::array<std::vector<double>, 2>> alike;  // of the lower and the upper third
-  for (std::size_t k = 0; k < ridge.size(); ++k)
-    if (k < third || k >= upper)
-      alike[std::lround(ridge[k].theta_h_deg / alike_deg)][k >= upper].push_back(ridge[k].f);
   std::vector<double> ratios;
-  std::size_t low = 0, high = 0;
-  for (auto& [theta_h, f] : alike) {
-    if (f[0].empty() || f[1].empty()) continue;
-    low += f[0].size();
-    high += f[1].size();
-    ratios.push_back(median(f[0]) / median(f[1]));
+  std::size_t compared = 0;
+  for (auto& [theta_h, samples] : ridge) {
+    std::ranges::sort(samples);
+    const std::size_t third = samples.size() / 3, upper = samples.size() - third;
+    if (third == 0 || samples[upper].first - samples[third - 1].first < apart_deg) continue;
+    std::vector<double> low, high;
+    for (std::size_t k = 0; k < third; ++k)
+      low.push_back(samples[k].second), high.push_back(samples[upper + k].second);
+    compared += third;
+    ratios.push_back(median(low) / median(high));
   }
-  return std::min(low, high) >= fewest && median(ratios) > falls;
+  constexpr std::size_t few = 3;
+  return compared >= few && median(ratios) > falls;
 }
 
 /// Standard deviation of ln f within cells of θ_h and θ_d, over which surfaces change little beside what they do over wrong
