@@ -15,6 +15,7 @@
 #include "table/health/rounding.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -454,56 +455,64 @@ std::size_t shared_end(const std::vector<double>& values, const Near& is_near) {
                                                                                              : last;
 }
 
-/// A greatest value that many samples share is where a detector was full; a least one, where noise was clipped.
-void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
-  const Table& t = facts.table();
+/// Last value that many samples share, of a channel or of several that end there.
+struct SharedEnd {
+  double value;
+  std::size_t sharers, values;
+  std::vector<std::string> channels;
+};
+std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
   const SampleAngles at(t);
   const std::size_t step = t.size() / 60'000 + 1;
-  const auto look = [&](bool greatest, auto&& say) {
-    std::map<double, std::pair<std::vector<double>, std::string>> with_end;  // values, channels
-    for (std::size_t c = 0; c < t.values.size(); ++c) {
-      std::vector<double> values;
-      for (std::size_t i = 0; i < t.size(); i += step)
-        if (const double v = t.values[c][i]; v > 0 && mask(at(i), v) == Mask::valid)
-          values.push_back(v);
-      if (values.empty()) continue;
-      const auto [low, high] = std::ranges::minmax(values);
-      auto& [together, channels] = with_end[greatest ? high : low];
-      together.insert(together.end(), values.begin(), values.end());
-      channels += (channels.empty() ? "" : ", ") + t.channels[c];
-    }
-    for (auto& [end, found] : with_end) {
-      auto& [values, channels] = found;
-      if (greatest)
-        std::ranges::sort(values, std::greater());
-      else
-        std::ranges::sort(values);
-      const double last = end;
-      const std::size_t n =
-          shared_end(values, [&](double v) { return greatest ? v > last / 2 : v < 2 * last; });
-      if (n == 0) continue;
-      say(n, values.size(), channels, end);
-      return;
-    }
+  std::map<double, std::pair<std::vector<double>, std::vector<std::string>>> with_end;
+  for (std::size_t c = 0; c < t.values.size(); ++c) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < t.size(); i += step)
+      if (const double v = t.values[c][i]; v > 0 && mask(at(i), v) == Mask::valid)
+        values.push_back(v);
+    if (values.empty()) continue;
+    const auto [low, high] = std::ranges::minmax(values);
+    auto& [together, channels] = with_end[greatest ? high : low];
+    together.insert(together.end(), values.begin(), values.end());
+    channels.push_back(t.channels[c]);
+  }
+  std::vector<SharedEnd> all;
+  for (auto& [end, found] : with_end) {
+    auto& [values, channels] = found;
+    std::ranges::sort(values);
+    if (greatest) std::ranges::reverse(values);
+    const auto is_near = [&, last = end](double v) {
+      return greatest ? v > last / 2 : v < 2 * last;
+    };
+    if (const std::size_t n = shared_end(values, is_near))
+      all.push_back({end, n, values.size(), std::move(channels)});
+  }
+  return all;
+}
+
+/// A greatest value that many samples share is where a detector was full; a least one, where noise was clipped.
+void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
+  const auto found = [](const SharedEnd& e) {
+    return fmt::format("{} of {} values of channel {} are {}", e.sharers, e.values,
+                       fmt::join(e.channels, ", "), e.value);
   };
-  const auto first = [](const std::string& channels) {
-    return channels.substr(0, channels.find(','));
-  };
-  look(true, [&](std::size_t n, std::size_t of, const std::string& channels, double end) {
-    all.push_back(fmt::format(
-        "{} of {} values of channel {} are {}, and none is more: a full detector? (--mask '{} >= "
-        "{}' leaves them out)",
-        n, of, channels, end, first(channels), end));
-  });
+  const Table& t = facts.table();
+  if (const auto full = shared_ends(t, true); !full.empty()) {
+    std::vector<std::string> conditions;
+    for (const auto& e : full)
+      for (const auto& channel : e.channels)
+        conditions.push_back(
+            fmt::format("{} >= {}", channel == "f" ? channel : "f_" + channel, e.value));
+    all.push_back(
+        fmt::format("{}, and none is more: a full detector? (--mask '{}' leaves them out)",
+                    found(full[0]), fmt::join(conditions, " or ")));
+  }
   // Computed values may all have one base.
   constexpr double measured = 1e-3;
   if (facts.noise().bound || !(facts.noise().sigma.value_or(0) > measured)) return;
-  look(false, [&](std::size_t n, std::size_t of, const std::string& channels, double end) {
-    all.push_back(
-        fmt::format("{} of {} values of channel {} are {}, and none is less: clipped noise? "
-                    "(--metric l2_cosine minds it less)",
-                    n, of, channels, end));
-  });
+  if (const auto clipped = shared_ends(t, false); !clipped.empty())
+    all.push_back(found(clipped[0]) +
+                  ", and none is less: clipped noise? (--metric l2_cosine minds it less)");
 }
 
 /// Noise lets neighbours change sides; what was taken off too much does not.
@@ -560,10 +569,10 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   texts.insert(texts.end(), cosine.begin(), cosine.end());
   warn_of_negative_channel(facts, texts);
   warn_of_offset(facts, texts);
+  warn_of_shared_ends(facts, texts);
   const std::size_t of_unit = texts.size();
   warn_of_dark_channels(facts.table(), texts);
   warn_of_zeros(facts, texts);
-  warn_of_shared_ends(facts, texts);
   std::vector<ValueWarning> all;
   for (auto& text : texts)
     all.push_back({std::move(text), all.size() < of_unit, all.size() < of_scale});

@@ -192,6 +192,7 @@ TEST(ValueWarnings, SayThatADetectorWasFull) {
     return std::min(f * std::exp(0.01 * normal(random)), 0.33);
   });
   EXPECT_TRUE(says(three, "values of channel r, g, b are 0.33, and none is more"));
+  EXPECT_TRUE(says(three, "(--mask 'f_r >= 0.33 or f_g >= 0.33 or f_b >= 0.33' leaves them out)"));
   // Short numbers are shared by many samples, the greatest by no more than others.
   EXPECT_FALSE(
       says(said_of(painted(180), [](const auto&, double f) { return std::round(f * 100) / 100; }),
