@@ -127,8 +127,8 @@ constexpr double reach_deg = 12;  ///< from a place to the nearest sample that s
 /// Samples of one incident direction, which is turned to φ = 0, and f between them.
 class AroundOneLight {
  public:
-  AroundOneLight(const Table& t, const std::vector<std::size_t>& samples, bool half)
-      : table_(t), at_(t) {
+  AroundOneLight(const Table& t, const std::vector<std::size_t>& samples, bool half, bool noisy)
+      : table_(t), at_(t), noisy_(noisy) {
     const DirectionList& l = *t.list();
     const Direction wi = direction(l.theta_i_deg[samples[0]] * degree, 0);
     for (const std::size_t i : samples) {
@@ -165,12 +165,14 @@ class AroundOneLight {
         const double part = std::clamp(
             (theta_h - n.first->theta_h) / (n.across->theta_h - n.first->theta_h), 0.0, 1.0);
         f[c] = std::lerp(first, other, part);
-        doubt = f[c] - std::pow(first, 1 - part) * std::pow(other, part);
+        doubt =
+            f[c] - std::pow(std::max(first, 0.0), 1 - part) * std::pow(std::max(other, 0.0), part);
       } else if (theta_h < innermost_->theta_h) {
         const double in = value(innermost_, c), out = value(next_, c);
         if (in > 0 && out > 0) doubt = first * std::abs(in / out - 1);
-      } else if (const double second = value(n.second, c); !std::isnan(second)) {
-        doubt = std::abs(first - second) / 2;
+      } else {
+        const double second = value(n.second, c);
+        doubt = std::isnan(second) ? std::abs(first) : std::abs(first - second) / 2;
       }
       if (!doubtful.empty()) doubtful[c] = f[c] - doubt;
     }
@@ -222,11 +224,14 @@ class AroundOneLight {
   double value(const Sample* s, std::size_t channel) const {
     if (!s) return std::nan("");
     const double v = table_.values[channel][s->number];
-    return mask(at_(s->number), v) == Mask::valid ? v : std::nan("");
+    const Mask m = mask(at_(s->number), v);
+    // Noise goes both ways: without its negative half the rest would be too bright.
+    return m == Mask::valid || (m == Mask::negative && noisy_) ? v : std::nan("");
   }
 
   const Table& table_;
   SampleAngles at_;
+  bool noisy_;  ///< negative values are noise, and no mark
   std::vector<Sample> all_;
   const Sample *innermost_ = nullptr, *next_ = nullptr;  ///< of the least θ_h, and farther out
 };
@@ -248,10 +253,11 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
   std::vector<std::pair<std::pair<double, double>, std::vector<std::size_t>>> lights;
   for (auto& [incident, samples] : groups)
     if (samples.size() >= fewest) lights.emplace_back(incident, std::move(samples));
+  const bool noisy = noise_floor(t) > 0;
   std::vector<std::optional<AlbedoSample>> found(lights.size());
   tbb::parallel_for(std::size_t{0}, lights.size(), [&](std::size_t k) {
     const auto& [incident, samples] = lights[k];
-    const AroundOneLight f(t, samples, one_azimuth && one_half_turn(l, samples));
+    const AroundOneLight f(t, samples, one_azimuth && one_half_turn(l, samples), noisy);
     double within = 0;
     for (const auto& node : nodes)
       if (f.reaches(node.direction)) within += node.weight;

@@ -507,12 +507,19 @@ void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
         fmt::format("{}, and none is more: a full detector? (--mask '{}' leaves them out)",
                     found(full[0]), fmt::join(conditions, " or ")));
   }
-  // Computed values may all have one base.
-  constexpr double measured = 1e-3;
-  if (facts.noise().bound || !(facts.noise().sigma.value_or(0) > measured)) return;
-  if (const auto clipped = shared_ends(t, false); !clipped.empty())
-    all.push_back(found(clipped[0]) +
+  for (const auto& e : shared_ends(t, false)) {
+    // A computed base is shared, too; clipped noise goes on above.
+    std::vector<double> above;
+    for (const auto& d : facts.noise_samples().all)
+      if (const double v = t.values[d.channel][d.sample]; v > e.value && v < 10 * e.value)
+        above.push_back(std::abs(d.more));
+    constexpr std::size_t few = 8;
+    constexpr double noisy = 0.1;
+    if (above.size() < few || !(median(above) > noisy)) continue;
+    all.push_back(found(e) +
                   ", and none is less: clipped noise? (--metric l2_cosine minds it less)");
+    return;
+  }
 }
 
 /// Noise lets neighbours change sides; what was taken off too much does not.

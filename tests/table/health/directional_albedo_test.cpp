@@ -2,6 +2,7 @@
 #include "table/health/directional_albedo.h"
 
 #include <cmath>
+#include <random>
 
 #include "brdf/model/evaluate.h"
 #include "table/example.h"
@@ -81,6 +82,23 @@ TEST(AlbedoOfATable, IsSaidOfAListOnlyAsFarAsItsRingsShowTheHighlight) {
   EXPECT_TRUE(directional_albedo(rings(0.02, 5)).empty())
       << "a hundredth of the hemisphere decides";
   EXPECT_EQ(directional_albedo(rings(0.3, 5)).size(), 2U);
+}
+
+TEST(AlbedoOfATable, OfAListTakesNoiseBelowZeroAndNoMarks) {
+  const Table clean = rings(0.3, 5);
+  const auto whole = directional_albedo(clean);
+  Table marked = clean, noisy = clean;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < clean.size(); ++i) {
+    if (i % 20 == 7) marked.values[0][i] = -999;
+    noisy.values[0][i] += 0.02 * normal(random);
+  }
+  for (const Table& t : {marked, noisy}) {
+    const auto found = directional_albedo(t);
+    ASSERT_EQ(found.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(found[k].albedo[0], whole[k].albedo[0], 0.03);
+  }
 }
 
 }  // namespace

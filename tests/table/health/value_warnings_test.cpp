@@ -301,6 +301,9 @@ TEST(ValueWarnings, SayThatNoiseWasClippedToALeastValue) {
   };
   EXPECT_TRUE(says(said(0.002, 1e-4), "are 0.0001, and none is less: clipped noise?"));
   EXPECT_FALSE(says(said(0, 1e-4), "clipped noise?"));
+  Table matt = painted(0);  // in plane, and computed: its base is shared
+  test::put_values(matt, bind_model("oren_nayar", {{"kd", {0.5}}, {"sigma", {0.5}}}, 1));
+  EXPECT_FALSE(says(said_of(matt, as_it_is), "clipped noise?"));
   // Far from a computed highlight all values may be those of its base.
   EXPECT_FALSE(says(said_of(painted(180), [](const auto&, double f) { return std::max(f, 0.1); }),
                     "clipped noise?"));
