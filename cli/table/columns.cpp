@@ -268,14 +268,16 @@ void add_columns(CommandLine& line) {
       "f=f_r11 channel=lambda",
       run);
   c.option("FILE", o->files, "CSV: fields between ; tabs, commas or blanks").required();
-  c.option("--map", o->words,
-           "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, u_f, u_percent, "
-           "weight, or "
-           "channel (each of its entries is one: a wavelength a row); or theta_h, phi_h, theta_d, "
-           "phi_d. COLUMN is a name, #k, a "
-           "constant such as 0, or header: the columns' names are that angle, as in a matrix; "
-           "f_*=*nm takes every column of that pattern. Unnamed: the column of "
-           "that very name; azimuths: 0. Without --map a side file's columns stay")
+  c.option(
+       "--map", o->words,
+       "NAME=COLUMN …: NAME is theta_i, phi_i, theta_o, phi_o, f, f_CHANNEL, u_f, u_percent, "
+       "weight, or "
+       "channel (each of its entries is one: a wavelength a row); or theta_h, phi_h, theta_d, "
+       "phi_d. COLUMN is a name, #k, a "
+       "constant such as 0, 90-NAME of an elevation, or header: the columns' names are that angle, "
+       "as in a matrix; "
+       "f_*=*nm takes every column of that pattern. Unnamed: the column of "
+       "that very name; azimuths: 0. Without --map a side file's columns stay")
       .at_most(4096);
   c.flag("--radians", o->map.radians, "Angles are in radians");
   c.flag("--cosine", o->map.cosine, "Values are f cos(theta_o)");

@@ -10,6 +10,7 @@
 #include "brdf/model/model.h"
 #include "brdf/model/roughness.h"
 #include "brdf/model/spec.h"
+#include "fitting/judge/seen.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -109,12 +110,14 @@ std::vector<std::string> hardly_known(const FitDocument& d) {
   std::vector<std::string> names;
   for (const auto& p : d.parameters) {
     if (p.name.starts_with("roughness")) continue;  // is alpha
-    for (std::size_t c = 0; c < p.value.size(); ++c)
+    for (std::size_t c = 0; c < p.value.size(); ++c) {
+      if (c < p.reason.size() && p.reason[c] == no_value_of_channel) continue;  // it is dark
       if (p.status[c] == ParameterStatus::not_identifiable ||
           (p.std_error[c] > std::abs(p.value[c]) / 2 && p.ci95_high[c] - p.ci95_low[c] > 0.1)) {
         names.push_back(p.name);
         break;
       }
+    }
   }
   return names;
 }
@@ -246,8 +249,14 @@ std::vector<std::string> next_steps(const FitOptions& o,
   const std::string less = unknown ? spec.without_lobe(*unknown) : "";
   const bool mended =
       d.misfit.told && !f.no_f && add_models(steps, spec, d, attempt, less, f.needless);
-  if (f.retro && !mended)
-    steps.add("--mask 'retro < 10': no microfacet model has a highlight at wo = wi");
+  if (f.retro && !mended) {
+    constexpr double of_it = 3,
+                     widest = 45;  // half widths, beyond which a lobe has next to nothing
+    const double wide = std::max(10.0, std::ceil(2 * of_it * f.retro->half_width_deg));
+    if (wide <= widest)
+      steps.add(fmt::format(
+          "--mask 'retro < {:.0f}': no microfacet model has a highlight at wo = wi", wide));
+  }
   if (f.cost_of_fewer < d.cost && spec.lobes_alike())
     steps.add_model(spec.without_lobe(0), "meets the table better");
   else if (unknown && !mended)

@@ -20,7 +20,7 @@ void forget_empty_channels(const Table& t, const Problem& p, Uncertainty& u) {
       continue;
     for (const auto& q : p.start.model.parameters) {
       if (q.count == 1 || !p.free.mask()[q.slot(c)]) continue;
-      u.forget(p.free.index(q.slot(c)), "no value of its channel can be used");
+      u.forget(p.free.index(q.slot(c)), no_value_of_channel);
     }
   }
 }

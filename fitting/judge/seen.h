@@ -8,6 +8,9 @@
 
 namespace gonio {
 
+/// Why nothing is known of a channel that is dark.
+inline constexpr const char* no_value_of_channel = "no value of its channel can be used";
+
 /// Takes values and intervals away that the table cannot mean:
 ///   all of a channel without a value that can be used;
 ///   all of a lobe, where each incident angle holds one constant;

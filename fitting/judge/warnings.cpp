@@ -114,9 +114,10 @@ std::vector<std::string> warnings(const FitOptions& o,
                     f.retro->height));
   if (const auto& peak = f.unresolved)
     all.push_back(
-        fmt::format("the table does not resolve its highlight ({:.0f} samples within its half "
-                    "width of {:.2g}°): it may be narrower",
-                    peak->samples_within, peak->half_width_deg));
+        fmt::format("the table does not resolve its highlight ({} within its half width of "
+                    "{:.2g}°): it may be narrower",
+                    counted(static_cast<std::size_t>(std::lround(peak->samples_within)), "sample"),
+                    peak->half_width_deg));
   if (const auto copies = copies_in_words(t); !copies.empty())
     all.push_back(copies + (o.copies ? ", though fitted as measurements" : ", and are left out"));
   if (const double bias = telling_bias(o, d); bias > 0)

@@ -53,6 +53,7 @@ class LaneFit {
   void gather_lanes(std::span<const std::size_t> texels);
   void put_frames(std::span<const std::size_t> texels);
   void make_angles();
+  void find_tilt();
   void find_start(std::span<const TexelTask::Start> starts);
   void in_logarithms();
   bool descend(int steps);
@@ -76,7 +77,9 @@ class LaneFit {
   // Samples of the register.
   std::array<Column<float>, 11> angles_;
   std::array<Column<float>, max_channels> target_, weight_;
-  Column<float> light_, view_, cosine_, slope_, frame_, base_, turn_;
+  Column<float> light_, view_, cosine_, slope_, frame_, base_, turn_, tilt_;
+  std::vector<bool> is_middle_;  ///< [slot]: a diffuse term's own, one for all channels
+  bool has_middles_ = false;
   std::vector<std::uint8_t> usable_;  ///< [sample][lane]: above the surface
   LaneSamples samples_;
   std::array<float, padding> count_{};  ///< of values
@@ -121,6 +124,15 @@ LaneFit::LaneFit(const TexelTask& task,
   frame_ = Column<float>(9 * padding);
   base_ = Column<float>(9 * padding);
   turn_ = Column<float>(4 * padding);
+  tilt_ = Column<float>(2 * padding);
+  is_middle_.resize(task.model().value_count);
+  for (const auto& d : task.model().diffuse)
+    for (const std::size_t k : d.parameters) {
+      const auto& q = task.model().parameters[k];
+      const bool scalar = q.count == 1 && !task.is_shape[q.first];
+      is_middle_[q.first] = scalar && task.problem.free.mask()[q.first];
+      has_middles_ = has_middles_ || is_middle_[q.first];
+    }
   usable_.resize(room);
 
   values_ = Column<float>(task.model().value_count * padding);
@@ -364,6 +376,61 @@ void LaneFit::put_values(const float* unknowns) {
     for (std::size_t k = 0; k < 2; ++k) angles_[k][i] = std::max(angles_[k][i], least);
 }
 
+/// The tilt at which matt surfaces would send the light that was measured, by least squares of ρ n·l, what is brighter counting
+/// less: highlights are.  0 where the lights or the answer say nothing.
+void LaneFit::find_tilt() {
+  constexpr int rounds = 4;
+  const std::size_t slots = task_.model().value_count, first = task_.unknown_of[slots];
+  for (std::size_t l = 0; l < width_; ++l) {
+    const auto axis = [&](std::size_t k) {
+      return Direction{double{base_[3 * k * padding + l]}, double{base_[(3 * k + 1) * padding + l]},
+                       double{base_[(3 * k + 2) * padding + l]}};
+    };
+    Direction m{};
+    for (int round = 0; round < rounds; ++round) {
+      std::array<double, 6> h{};  // xx xy xz yy yz zz
+      std::array<double, 3> g{};
+      for (std::size_t i = 0; i < in_.images; ++i) {
+        const std::size_t at = i * width_ + l;
+        const auto of = [&](std::size_t k) {
+          return double{in_.shared ? light_[k * in_.images + i]
+                                   : light_[(k * in_.images + i) * width_ + l]};
+        };
+        const Direction light{of(0), of(1), of(2)};
+        for (std::size_t c = 0; c < in_.channels; ++c) {
+          if (!(weight_[c][at] > 0)) continue;
+          const double y = double{target_[c][at]} * double{cosine_[at]}, matt = dot(m, light);
+          const double w = round > 0 && y > matt ? square(std::max(matt, 0.0) / y) : 1;
+          h[0] += w * light.x * light.x, h[1] += w * light.x * light.y;
+          h[2] += w * light.x * light.z, h[3] += w * light.y * light.y;
+          h[4] += w * light.y * light.z, h[5] += w * light.z * light.z;
+          g[0] += w * y * light.x, g[1] += w * y * light.y, g[2] += w * y * light.z;
+        }
+      }
+      const std::array c{h[3] * h[5] - h[4] * h[4], h[2] * h[4] - h[1] * h[5],
+                         h[1] * h[4] - h[2] * h[3], h[0] * h[5] - h[2] * h[2],
+                         h[1] * h[2] - h[0] * h[4], h[0] * h[3] - h[1] * h[1]};
+      const double det = h[0] * c[0] + h[1] * c[1] + h[2] * c[2];
+      constexpr double flat = 1e-6;
+      if (!(det > flat * square(h[0] + h[3] + h[5]) * (h[0] + h[3] + h[5]))) {
+        m = {};
+        break;
+      }
+      m = {(c[0] * g[0] + c[1] * g[1] + c[2] * g[2]) / det,
+           (c[1] * g[0] + c[3] * g[1] + c[4] * g[2]) / det,
+           (c[2] * g[0] + c[4] * g[1] + c[5] * g[2]) / det};
+    }
+    const double along = dot(m, axis(2)), length = std::sqrt(dot(m, m));
+    constexpr double steepest = 0.2;  // cosine
+    for (std::size_t k = 0; k < 2; ++k)
+      tilt_[k * padding + l] =
+          along > steepest * length
+              ? std::clamp(static_cast<float>(dot(m, axis(k)) / along),
+                           task_.unknowns.low[first + k], task_.unknowns.high[first + k])
+              : 0;
+  }
+}
+
 /// The best of the shapes that are tried, all else solved for.
 void LaneFit::find_start(std::span<const TexelTask::Start> starts) {
   const auto& u = task_.unknowns;
@@ -371,10 +438,13 @@ void LaneFit::find_start(std::span<const TexelTask::Start> starts) {
   std::fill_n(state_.cost, padding, far);
   const auto begin = [&] {
     for (std::size_t i = 0; i < n(); ++i) {
-      const std::size_t s = u.slot[i];
-      const double x = s < task_.problem.start.values.size() ? task_.problem.start.values[s] : 0;
-      std::fill_n(state_.tried + i * padding, padding,
-                  std::clamp(static_cast<float>(x), u.low[i], u.high[i]));
+      const std::size_t s = u.slot[i], slots = task_.problem.start.values.size();
+      if (s >= slots) {
+        std::copy_n(row(tilt_, s - slots), padding, state_.tried + i * padding);
+        continue;
+      }
+      const auto x = static_cast<float>(task_.problem.start.values[s]);
+      std::fill_n(state_.tried + i * padding, padding, std::clamp(x, u.low[i], u.high[i]));
     }
   };
   begin();
@@ -413,11 +483,31 @@ void LaneFit::fit(std::span<const std::size_t> texels,
                   int steps) {
   gather(texels);
   std::vector<std::vector<float>> begins;
-  if (waiting.empty())
+  const auto find_starts = [&] {
     for (const auto& group : task_.starts) {
       find_start(group);
       begins.emplace_back(state_.x, state_.x + n() * padding);
     }
+  };
+  if (waiting.empty()) {
+    std::fill_n(tilt_.data(), 2 * padding, 0.0F);
+    find_starts();
+    // From a normal far off other parameters are led astray before it is found.
+    if (task_.asked.refine_normals && in_.normal.empty()) {
+      find_tilt();
+      find_starts();
+      // A diffuse roughness of 0 does not move.
+      const auto& u = task_.unknowns;
+      const auto tilted = begins;
+      for (const float part : {0.1F, 0.2F, 0.4F})
+        for (std::size_t g = tilted.size() / 2; has_middles_ && g < tilted.size(); ++g) {
+          auto& x = begins.emplace_back(tilted[g]);
+          for (std::size_t i = 0; i < n(); ++i)
+            if (u.slot[i] < is_middle_.size() && is_middle_[u.slot[i]])
+              std::fill_n(x.data() + i * padding, padding, std::lerp(u.low[i], u.high[i], part));
+        }
+    }
+  }
   in_logarithms();
   std::fill_n(state_.damping, padding, 0.0F);
   if (!waiting.empty()) {

@@ -13,7 +13,7 @@
 /// Where `channel` names a column, each of its values is a channel of its own (a wavelength a row).
 /// theta_h, phi_h, theta_d and phi_d stand in place of the four angles [Rusinkiewicz 1998].
 /// One angle may be "header": each column whose name holds a number has the values at that angle, as in a matrix; where
-/// columns have no names, the first row holds these numbers.
+/// columns have no names, the first row holds these numbers.  theta_i or theta_o may be "90-NAME" of a column with elevations.
 ///
 ///   unit     of all angles
 ///   forward  phi_o − phi_i of the mirror direction [degrees]: 180, or 0 where azimuths are counted
@@ -48,6 +48,8 @@ inline constexpr std::array<std::string_view, 8> angle_roles{
     "theta_i", "phi_i", "theta_o", "phi_o", "theta_h", "phi_h", "theta_d", "phi_d"};
 /// The word of the angle that the names of columns hold.
 inline constexpr std::string_view in_header = "header";
+/// What stands before the column of an elevation, from which the zenith angle is 90° less it.
+inline constexpr std::string_view elevation_mark = "90-";
 
 /// Regular expression of what a column can be: an angle, f, f_NAME, an uncertainty of these, weight or channel.
 inline constexpr std::string_view role_pattern =

@@ -175,6 +175,8 @@ class CsvReader {
     if (map_->radians)
       for (auto& angle : angles_)
         for (double& a : angle) a /= degree;
+    for (const std::size_t k : elevations_)
+      for (double& a : angles_[k]) a = 90 - a;
     if (has("theta_h")) from_half_angles();
     auto& [theta_i, phi_i, theta_o, phi_o, h, ph, d, pd] = angles_;
     DirectionList list{std::move(theta_i), std::move(phi_i), std::move(theta_o), std::move(phi_o)};
@@ -256,7 +258,12 @@ class CsvReader {
     const Names names(lines_.names());
     std::set<std::size_t> used;
     const auto take = [&](std::size_t index) { return used.insert(index).second; };
-    for (const auto& [role, column] : expanded()) {
+    for (auto& [role, column] : expanded()) {
+      if (column.starts_with(elevation_mark) && (role == "theta_i" || role == "theta_o") &&
+          names.columns(column).empty()) {
+        column.erase(0, elevation_mark.size());
+        elevations_.push_back(angle_place(role));
+      }
       if (column == in_header && angle_place(role) < angle_roles.size() &&
           names.columns(column).empty()) {
         if (header_)
@@ -756,8 +763,10 @@ class CsvReader {
   std::vector<Rows> rows_of_parts_;  ///< in their order
   std::size_t rows_ = 0;
   std::array<std::vector<double>, angle_roles.size()> angles_;  ///< [role][row]
-  std::optional<std::string> header_;  ///< the angle that the columns' names hold
-  std::vector<double> header_angles_;  ///< in the map's unit; of each value column
+  std::optional<std::string> header_;    ///< the angle that the columns' names hold
+  std::vector<std::size_t> elevations_;  ///< zenith angles, by their place among angle_roles, that
+                                         ///< are 90° less their column
+  std::vector<double> header_angles_;    ///< in the map's unit; of each value column
 };
 
 std::ptrdiff_t beyond(const std::vector<double>& angles, double limit) {

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
+#include <optional>
 #include <span>
 #include <utility>
 
@@ -42,7 +44,7 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
   };
   std::vector<Sums> sums(channels);
   std::vector<double> value(channels), geometric(channels);
-  double whole = 0;
+  std::array<double, 2> all_nodes{};
   for (std::size_t j = 0; j < rays; ++j) {
     const double psi = 2 * pi * (static_cast<double>(j) + 0.5) / rays, k = slope * std::cos(psi),
                  root = std::hypot(k, 1.0), end = std::atan(k > 0 ? k + root : 1 / (root - k));
@@ -53,7 +55,7 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
       const Direction wo{2 * voh * h.x - wi.x, 2 * voh * h.y - wi.y, 2 * voh * h.z - wi.z};
       const double weight = 12 * voh * std::max(wo.z, 0.0) * std::sin(theta) * end * x * x;
       if (!(weight > 0)) continue;
-      whole += weight;
+      all_nodes[(i + j) % 2] += weight;
       const bool both = (i + 2 * j) % 4 == 0;
       f({wi, wo}, value, both ? geometric : std::span<double>{});
       for (std::size_t c = 0; c < channels; ++c) {
@@ -66,6 +68,7 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
       }
     }
   }
+  const double whole = all_nodes[0] + all_nodes[1];
   AlbedoSample a{theta_i_deg, 0, {}, 1, 0};
   for (const auto& [v, w, apart, looked_at] : sums) {
     const double all = w[0] + w[1], mean = pi * (v[0] + v[1]) / all;
@@ -119,11 +122,123 @@ bool one_half_turn(const DirectionList& l, const std::vector<std::size_t>& sampl
   });
 }
 
+constexpr double reach_deg = 12;  ///< from a place to the nearest sample that speaks for it
+
+/// Samples of one incident direction, which is turned to φ = 0, and f between them.
+class AroundOneLight {
+ public:
+  AroundOneLight(const Table& t, const std::vector<std::size_t>& samples, bool half, bool noisy)
+      : table_(t), at_(t), noisy_(noisy) {
+    const DirectionList& l = *t.list();
+    const Direction wi = direction(l.theta_i_deg[samples[0]] * degree, 0);
+    for (const std::size_t i : samples) {
+      const double phi = (l.phi_o_deg[i] - l.phi_i_deg[i]) * degree;
+      for (const double side : {phi, -phi}) {
+        const Direction wo = direction(l.theta_o_deg[i] * degree, side);
+        all_.push_back({wo, theta_of(half_vector_of(wi, wo)), i});
+        if (!half) break;  // else the other half is its mirror image
+      }
+    }
+    // A place looks only at those no farther from it in zenith angle than it may be at all.
+    std::ranges::stable_sort(all_, {}, height);
+    innermost_ = &*std::ranges::min_element(all_, {}, &Sample::theta_h);
+    constexpr double further = 1.5, least = 0.1 * degree;
+    for (const Sample& s : all_)
+      if (s.theta_h > std::max(further * innermost_->theta_h, least) &&
+          (!next_ || s.theta_h < next_->theta_h))
+        next_ = &s;
+  }
+
+  bool reaches(const Direction& wo) const { return near(wo, 0).first != nullptr; }
+
+  /// f where both logarithms and values are interpolated over θ_h, from the nearest sample to the nearest one on the
+  /// other side of the place: a highlight lies along circles of θ_h.  Nearer to the mirror direction than any sample it
+  /// rises by nobody knows how much, at most about as steeply as farther out.
+  void operator()(const DirectionPair& p, std::span<double> f, std::span<double> doubtful) const {
+    const double theta_h = theta_of(half_vector_of(p.wi, p.wo));
+    const Near n = near(p.wo, theta_h);
+    for (std::size_t c = 0; c < f.size(); ++c) {
+      const double first = value(n.first, c), other = value(n.across, c);
+      double doubt = 0;
+      f[c] = first;
+      if (!std::isnan(other)) {
+        const double part = std::clamp(
+            (theta_h - n.first->theta_h) / (n.across->theta_h - n.first->theta_h), 0.0, 1.0);
+        f[c] = std::lerp(first, other, part);
+        doubt =
+            f[c] - std::pow(std::max(first, 0.0), 1 - part) * std::pow(std::max(other, 0.0), part);
+      } else if (theta_h < innermost_->theta_h) {
+        const double in = value(innermost_, c), out = value(next_, c);
+        if (in > 0 && out > 0) doubt = first * std::abs(in / out - 1);
+      } else {
+        const double second = value(n.second, c);
+        doubt = std::isnan(second) ? std::abs(first) : std::abs(first - second) / 2;
+      }
+      if (!doubtful.empty()) doubtful[c] = f[c] - doubt;
+    }
+  }
+
+ private:
+  struct Sample {
+    Direction wo;
+    double theta_h;
+    std::size_t number;  ///< in the table
+  };
+  /// The nearest sample, the next, and the nearest on the other side in θ_h; all null where the first is out of reach.
+  struct Near {
+    const Sample *first = nullptr, *second = nullptr, *across = nullptr;
+  };
+  static double height(const Sample& s) { return s.wo.z; }
+
+  static Direction half_vector_of(const Direction& a, const Direction& b) {
+    return {a.x + b.x, a.y + b.y, a.z + b.z};
+  }
+
+  Near near(const Direction& wo, double theta_h) const {
+    constexpr double far_deg = 3 * reach_deg;  // of those beside the nearest
+    const double zenith = theta_of(wo), margin = far_deg * degree + 1e-6;
+    const double highest = zenith < margin ? 1.0 : std::cos(zenith - margin);
+    const double reach = std::cos(reach_deg * degree), far = std::cos(far_deg * degree);
+    Near n;
+    std::array<double, 2> closeness{-1, -1};  // of the first and the second
+    std::array<const Sample*, 2> side{};      // the nearest within and without its θ_h
+    std::array<double, 2> closest{-1, -1};
+    auto s = std::ranges::lower_bound(all_, std::cos(zenith + margin), {}, height);
+    for (; s != all_.end() && s->wo.z <= highest; ++s) {
+      const double c = dot(s->wo, wo);
+      if (c < far) continue;
+      const bool without = s->theta_h > theta_h;
+      if (c > closest[without]) closest[without] = c, side[without] = &*s;
+      if (c > closeness[0] || (c == closeness[0] && s->number < n.first->number)) {
+        n.second = n.first, closeness[1] = closeness[0];
+        n.first = &*s, closeness[0] = c;
+      } else if (c > closeness[1] && s->number != n.first->number) {
+        n.second = &*s, closeness[1] = c;
+      }
+    }
+    if (!(closeness[0] >= reach)) return {};
+    n.across = side[n.first->theta_h > theta_h ? 0 : 1];
+    return n;
+  }
+
+  double value(const Sample* s, std::size_t channel) const {
+    if (!s) return std::nan("");
+    const double v = table_.values[channel][s->number];
+    const Mask m = mask(at_(s->number), v);
+    // Noise goes both ways: without its negative half the rest would be too bright.
+    return m == Mask::valid || (m == Mask::negative && noisy_) ? v : std::nan("");
+  }
+
+  const Table& table_;
+  SampleAngles at_;
+  bool noisy_;  ///< negative values are noise, and no mark
+  std::vector<Sample> all_;
+  const Sample *innermost_ = nullptr, *next_ = nullptr;  ///< of the least θ_h, and farther out
+};
+
 std::vector<AlbedoSample> samples_of_list(const Table& t) {
-  constexpr double reach_deg = 12;
-  const double reach = std::cos(reach_deg * degree);
-  const auto fewest =
-      static_cast<std::size_t>(1 / (1 - reach));  // caps of that size in a hemisphere
+  const auto fewest = static_cast<std::size_t>(
+      1 / (1 - std::cos(reach_deg * degree)));  // caps of that size in a hemisphere
   const auto nodes = cosine_hemisphere(24, 48);
   const DirectionList& l = *t.list();
   const Hashes hashes = hashes_of(t.size(), [&](std::size_t i) -> AngleKey<2> {
@@ -133,78 +248,31 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
   for (const std::size_t i : KeyCounts(hashes).among(hashes, fewest))
     if (l.theta_i_deg[i] < 90 && l.theta_o_deg[i] < 90)
       groups[{l.theta_i_deg[i], l.phi_i_deg[i]}].push_back(i);
-  const SampleAngles at(t);
   const bool one_azimuth =
       std::ranges::all_of(l.phi_i_deg, [&](double phi) { return phi == l.phi_i_deg[0]; });
-  std::vector<AlbedoSample> all;
-  for (const auto& [incident, group] : groups) {
-    const auto& samples = group;  // clang 14 lets no lambda have a structured binding
-    if (samples.size() < fewest) continue;
-    // In the order of their cosines: a node looks at those no farther from it in zenith angle than
-    // it may be at all.
-    std::vector<std::pair<Direction, std::size_t>> by_height;
-    const bool half =
-        one_azimuth && one_half_turn(l, samples);  // the other half is its mirror image
-    for (const auto i : samples) {
-      const auto p = at.directions(i);
-      by_height.emplace_back(p.wo, i);
-      const double phi = 2 * phi_of(p.wi) - phi_of(p.wo);
-      if (half) by_height.emplace_back(direction(theta_of(p.wo), phi), i);
-    }
-    const auto height = [](const auto& s) { return s.first.z; };
-    std::ranges::stable_sort(by_height, {}, height);
-    struct Near {
-      std::array<std::size_t, 2> sample{};  ///< the nearest, and the next
-      std::array<double, 2> closeness{-1, -1};
-    };
-    std::vector<Near> near(nodes.size());
-    tbb::parallel_for(std::size_t{0}, nodes.size(), [&](std::size_t k) {
-      const double zenith = theta_of(nodes[k].direction), margin = reach_deg * degree + 1e-6;
-      const double highest = zenith < margin ? 1.0 : std::cos(zenith - margin);
-      auto s = std::ranges::lower_bound(by_height, std::cos(zenith + margin), {}, height);
-      auto& [sample, closeness] = near[k];
-      for (; s != by_height.end() && s->first.z <= highest; ++s) {
-        const double c = dot(s->first, nodes[k].direction);
-        if (c > closeness[0] || (c == closeness[0] && s->second < sample[0])) {
-          if (s->second != sample[0]) sample[1] = sample[0], closeness[1] = closeness[0];
-          sample[0] = s->second, closeness[0] = c;
-        } else if (c > closeness[1] && s->second != sample[0]) {
-          sample[1] = s->second, closeness[1] = c;
-        }
-      }
-    });
+  std::vector<std::pair<std::pair<double, double>, std::vector<std::size_t>>> lights;
+  for (auto& [incident, samples] : groups)
+    if (samples.size() >= fewest) lights.emplace_back(incident, std::move(samples));
+  const bool noisy = noise_floor(t) > 0;
+  std::vector<std::optional<AlbedoSample>> found(lights.size());
+  tbb::parallel_for(std::size_t{0}, lights.size(), [&](std::size_t k) {
+    const auto& [incident, samples] = lights[k];
+    const AroundOneLight f(t, samples, one_azimuth && one_half_turn(l, samples), noisy);
     double within = 0;
-    for (std::size_t k = 0; k < nodes.size(); ++k)
-      if (near[k].closeness[0] >= reach) within += nodes[k].weight;
-    if (within < 0.95 * std::numbers::pi) continue;
-    const auto value = [&](std::size_t k, std::size_t c, std::size_t rank) {
-      const std::size_t i = near[k].sample[rank];
-      const double v = near[k].closeness[rank] < reach ? std::nan("") : t.values[c][i];
-      return mask(at(i), v) == Mask::valid ? v : std::nan("");
-    };
-    AlbedoSample a{incident.first, incident.second, {}, 1, 0};
-    double largest = 0;  // part of a sum that one sample makes
-    for (std::size_t c = 0; c < t.channels.size(); ++c) {
-      std::map<std::size_t, double> parts;
-      double sum = 0, weight = 0, apart = 0;
-      for (std::size_t k = 0; k < nodes.size(); ++k) {
-        const double v = value(k, c, 0), other = value(k, c, 1), w = nodes[k].weight;
-        if (std::isnan(v)) continue;
-        parts[near[k].sample[0]] += w * v;
-        sum += w * v;
-        weight += w;
-        // f lies between the two, or about as far from the first.
-        if (!std::isnan(other)) apart += w * std::abs(v - other) / 2;
-      }
-      for (const auto& [sample, part] : parts)
-        largest = std::max(largest, sum > 0 ? part / sum : 0);
-      const bool enough = weight > std::numbers::pi / 2;
-      a.albedo.push_back(enough ? sum / weight * std::numbers::pi : std::nan(""));
-      if (enough) a.error = std::max(a.error, apart / weight * std::numbers::pi);
-      a.coverage = std::min(a.coverage, weight / std::numbers::pi);
-    }
-    if (largest <= 0.1) all.push_back(std::move(a));
-  }
+    for (const auto& node : nodes)
+      if (f.reaches(node.direction)) within += node.weight;
+    if (within < 0.95 * std::numbers::pi) return;
+    AlbedoSample a = integrate(incident.first, t.channels.size(), std::ref(f));
+    a.phi_i_deg = incident.second;
+    double most = 0;
+    for (const double v : a.albedo) most = std::max(most, v);
+    a.error += (1 - a.coverage) / 2 * most;  // what lacks may be half or half as much again
+    constexpr double known = 1 / 3.0;  // a peak between samples farther apart cannot be integrated
+    if (!(a.error > known * most)) found[k] = std::move(a);
+  });
+  std::vector<AlbedoSample> all;
+  for (auto& a : found)
+    if (a) all.push_back(std::move(*a));
   return all;
 }
 

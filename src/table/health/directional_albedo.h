@@ -14,9 +14,9 @@ AlbedoSample directional_albedo(const Table&, double theta_i_deg);
 
 /// Grids, and lists with Table::between: at θ_i = 0, step, 2 step … below 90°, likewise.
 /// Other lists: at each incident direction whose samples, mirrored where they go half round, leave less than a twentieth of the
-/// cosine-weighted hemisphere further than 12° away, every place taking its nearest sample's value,
-/// unless one sample then makes more than a tenth of the sum: a peak between samples that far apart
-/// cannot be integrated.
+/// cosine-weighted hemisphere further than 12° away, by quadrature over what is interpolated between samples along θ_h, unless
+/// its error is then more than a third of it: a peak between samples that far apart cannot be
+/// integrated.
 /// An image slice holds no hemisphere: empty.
 std::vector<AlbedoSample> albedo_curve(const Table&, double step_deg);
 /// By 15°.

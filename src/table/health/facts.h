@@ -41,6 +41,9 @@ class TableFacts {
   const std::optional<std::size_t>& negative_channel() {
     return once(negative_channel_, [&] { return gonio::negative_channel(*this); });
   }
+  double negative_offset() {
+    return once(negative_offset_, [&] { return gonio::negative_offset(*this); });
+  }
   double noise_floor() {
     return once(noise_floor_, [&] { return gonio::noise_floor(*this); });
   }
@@ -63,7 +66,7 @@ class TableFacts {
   std::optional<std::vector<AlbedoSample>> albedo_;
   std::optional<Reciprocity> reciprocity_;
   std::optional<std::optional<std::size_t>> negative_channel_;
-  std::optional<double> noise_floor_;
+  std::optional<double> negative_offset_, noise_floor_;
   std::optional<bool> computed_;
 };
 

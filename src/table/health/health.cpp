@@ -50,15 +50,8 @@ Tally tally(const Table& t) {
       });
 }
 
-}  // namespace
-
-double noise_floor(const Table& t) {
-  TableFacts facts(t);
-  return facts.noise_floor();
-}
-
-double noise_floor(TableFacts& facts) {
-  const Table& t = facts.table();
+/// Size that negative values typically have; 0 where there are next to none, or they are a mark.
+double negative_size(const Table& t) {
   const auto has_negative = [](const Values& plane) {
     return std::ranges::any_of(plane, [](double v) { return v < 0; });
   };
@@ -74,11 +67,29 @@ double noise_floor(TableFacts& facts) {
       if (m == Mask::negative) sizes.push_back(-plane[i]);
     }
   }
-  if (sizes.empty() || sizes.size() * 1000 < above_horizon || facts.negative_channel()) return 0;
+  if (sizes.empty() || sizes.size() * 1000 < above_horizon) return 0;
   const double middle = median(sizes);
   // More than half of them one number: a mark for missing data, as a format would have one.
   const auto same = static_cast<std::size_t>(std::ranges::count(sizes, middle));
-  return 2 * same > sizes.size() ? 0 : 1.4826 * middle;
+  return 2 * same > sizes.size() ? 0 : middle;
+}
+
+}  // namespace
+
+double noise_floor(const Table& t) {
+  TableFacts facts(t);
+  return facts.noise_floor();
+}
+
+double negative_offset(TableFacts& facts) {
+  constexpr double follows = 0.4;
+  const double size = negative_size(facts.table());
+  return size > 0 && roughness_of_negatives(facts.table()) < follows ? size : 0;
+}
+
+double noise_floor(TableFacts& facts) {
+  const double size = negative_size(facts.table());
+  return size > 0 && !facts.negative_channel() && facts.negative_offset() == 0 ? 1.4826 * size : 0;
 }
 
 std::vector<std::size_t> first_of_copies(const Table& t, std::size_t axis) {

@@ -85,9 +85,11 @@ Health inspect(const Table&);
 double typical_uncertainty(const Table&);
 
 /// The noise floor that negative values betray [1/sr]: 1.4826 · median |negative| above the horizon,
-/// where negatives are noise, make up at least 0.1 % of the values there, and are not one number that
-/// marks missing data; else 0.
+/// where negatives are noise, make up at least 0.1 % of the values there, and are neither one number that
+/// marks missing data nor an offset; else 0.
 double noise_floor(TableFacts&);
+/// Median |negative| [1/sr] where such values follow their neighbours, as those do from which too much was taken off; else 0.
+double negative_offset(TableFacts&);
 double noise_floor(const Table&);
 /// The channel that holds all the negative values, where a noise floor would show in the others, too.
 std::optional<std::size_t> negative_channel(TableFacts&);

@@ -1,6 +1,7 @@
 #include "table/health/noise.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 #include <map>
 #include <numbers>
@@ -312,6 +313,31 @@ Noise estimate_noise(const Table& t, const NoiseSamples& samples) {
   noise.over_value =
       bands(best, decades, [&](const NoiseSample& d) { return t.values[d.channel][d.sample]; });
   return noise;
+}
+
+double roughness_of_negatives(const Table& t) {
+  constexpr std::size_t least_values = 8;
+  const SampleAngles at(t);
+  double most = nan;
+  for (const Family& f : t.grid() ? of_grid(t) : of_list(t)) {
+    std::vector<double> sizes, apart;
+    for (const Line& line : f.lines)
+      for (const auto& plane : t.values)
+        for (std::size_t k = 1; k + 1 < line.size(); ++k) {
+          const double v = plane[line[k].sample], before = plane[line[k - 1].sample],
+                       after = plane[line[k + 1].sample];
+          if (!(v < 0) || mask(at(line[k].sample), v) != Mask::negative || !std::isfinite(before) ||
+              !std::isfinite(after))
+            continue;
+          const double part = (line[k].x - line[k - 1].x) / (line[k + 1].x - line[k - 1].x);
+          sizes.push_back(-v);
+          apart.push_back(std::abs(v - std::lerp(before, after, part)));
+        }
+    if (sizes.size() < least_values) continue;
+    const double ratio = median(apart) / median(sizes);
+    if (!(ratio <= most)) most = ratio;
+  }
+  return most;
 }
 
 }  // namespace gonio

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <map>
 #include <numbers>
 #include <set>
@@ -16,6 +17,7 @@
 #include "table/health/rounding.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -83,18 +85,43 @@ std::optional<std::pair<double, double>> bright_everywhere(const Table& t) {
   return most;
 }
 
+/// Command that leaves a channel out.
+std::string without_channel(const Table& t, std::size_t channel) {
+  if (t.format != "csv") return "";
+  std::string others;
+  for (std::size_t c = 0; c < t.channels.size(); ++c)
+    if (c != channel) others += fmt::format(" f_{0}=f_{0}", t.channels[c]);
+  return fmt::format(" (gonio columns FILE --map{} leaves it out)", others);
+}
+
 /// \param divided  by a cosine: a scale says nothing then
 void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& all) {
   const Table& t = facts.table();
   const auto unit = [&](double light) { return divided ? "" : unit_of(t, light); };
+  constexpr double rounding = 1e-9;
   double most = 0, at = 0, whole = 0, shown = 0;
+  std::size_t brightest = 0;
+  std::vector<double> of_channel(t.channels.size());
   for (const auto& a : facts.albedo())
-    for (const double v : a.albedo) {
+    for (std::size_t c = 0; c < a.albedo.size(); ++c) {
+      const double v = a.albedo[c];
       if (std::isnan(v)) continue;
       whole = std::max(whole, v);
+      of_channel[c] = std::max(of_channel[c], v);
       const double sure = (v - a.error) * a.coverage;
-      if (sure > most) most = sure, at = a.theta_i_deg, shown = v;
+      if (sure > most * (1 + rounding)) most = sure, at = a.theta_i_deg, shown = v, brightest = c;
     }
+  double others = 0;
+  for (std::size_t c = 0; c < of_channel.size(); ++c)
+    if (c != brightest) others = std::max(others, of_channel[c]);
+  constexpr double of_its_own = 30;  // times as bright as all others: no colour
+  if (most > too_much && others > 0 && others < 1 && shown > of_its_own * others) {
+    all.push_back(fmt::format(
+        "channel {} returns {:.3g} times the light at theta_i {:.3g}°, the others at most {:.2g}: "
+        "a scale of its own?{}",
+        t.channels[brightest], shown, at, others, without_channel(t, brightest)));
+    return;
+  }
   if (most > too_much) {
     all.push_back(fmt::format("the table returns {:.3g} times the light at theta_i {:.3g}°{}",
                               shown, at, unit(shown)));
@@ -129,6 +156,14 @@ constexpr std::array cosines{
     Cosines{1, 1, "f cos(theta_i) cos(theta_o)", ""},
     Cosines{-1, -1, "f/(cos(theta_i) cos(theta_o))", ""}};
 
+/// Sum of the channels' valid values.
+double value_of_all(const Table& t, const Angles<double>& a, std::size_t i) {
+  double f = 0;
+  for (const auto& plane : t.values)
+    if (mask(a, plane[i]) == Mask::valid) f += plane[i];
+  return f;
+}
+
 /// Slopes of ln f over the logarithms of both cosines, away from the highlight, and the spread of ln f before and
 /// after they are taken out.  Of a cosine that hardly changes the slope is 0.
 struct Trend {
@@ -148,9 +183,7 @@ std::optional<Trend> trend_of(const Table& t) {
   for (std::size_t i = 0; i < t.size(); i += step) {
     const auto a = at(i);
     if (!(std::min(a.nol, a.nov) > 0.17) || a.sin2_theta_h < off_specular * off_specular) continue;
-    double f = 0;  // of all channels, whose colours are no trend
-    for (const auto& plane : t.values)
-      if (mask(a, plane[i]) == Mask::valid) f += plane[i];
+    const double f = value_of_all(t, a, i);  // the channels' colours are no trend
     if (!(f > 0)) continue;
     const std::array x{std::log(a.nol), std::log(a.nov), std::log(f)};
     ++n;
@@ -240,6 +273,121 @@ const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) 
   return nullptr;
 }
 
+/// The table with zenith angles counted from the surface.
+Table with_elevations(const Table& t, bool incident, bool outgoing) {
+  Table turned = t;
+  auto& l = std::get<DirectionList>(turned.where);
+  for (auto& [theta, turns] : {std::pair(&l.theta_i_deg, incident), {&l.theta_o_deg, outgoing}})
+    if (turns)
+      for (double& deg : *theta) deg = 90 - deg;
+  return turned;
+}
+
+/// True where the highlight falls towards grazing, where those of all surfaces rise: samples at the same θ_h are compared.
+bool highlight_falls(TableFacts& facts) {
+  const auto& peak = facts.peak().peak;
+  if (!peak) return false;
+  const Table& t = facts.table();
+  const SampleAngles at(t);
+  constexpr double falls = 2.5, apart_deg = 20, alike_deg = 0.1;
+  std::map<long, std::vector<std::pair<double, double>>> ridge;  // by θ_h: θ_d [°] and f
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto a = at(i);
+    const double theta_h_deg = std::asin(std::sqrt(std::min(a.sin2_theta_h, 1.0))) / degree;
+    if (!(theta_h_deg < peak->half_width_deg)) continue;
+    if (const double f = value_of_all(t, a, i); f > 0)
+      ridge[std::lround(theta_h_deg / alike_deg)].emplace_back(
+          std::acos(std::clamp(a.voh, 0.0, 1.0)) / degree, f);
+  }
+  std::vector<double> ratios;
+  std::size_t compared = 0;
+  for (auto& [theta_h, samples] : ridge) {
+    std::ranges::sort(samples);
+    const std::size_t third = samples.size() / 3, upper = samples.size() - third;
+    if (third == 0 || samples[upper].first - samples[third - 1].first < apart_deg) continue;
+    std::vector<double> low, high;
+    for (std::size_t k = 0; k < third; ++k)
+      low.push_back(samples[k].second), high.push_back(samples[upper + k].second);
+    compared += third;
+    ratios.push_back(median(low) / median(high));
+  }
+  constexpr std::size_t few = 3;
+  return compared >= few && median(ratios) > falls;
+}
+
+/// Standard deviation of ln f within cells of θ_h and θ_d, over which surfaces change little beside what they do over wrong
+/// angles.  NaN of few.
+double scatter(const Table& t) {
+  constexpr std::size_t rows = 8, columns = 6, least = 3, few = 10;
+  const double grazing = std::cos(85 * degree);
+  const SampleAngles at(t);
+  std::array<std::vector<double>, rows * columns> cells;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto a = at(i);
+    const double f = value_of_all(t, a, i);
+    if (!(f > 0) || !(std::min(a.nol, a.nov) > grazing)) continue;
+    const double theta_h = std::asin(std::sqrt(std::clamp(a.sin2_theta_h, 0.0, 1.0))),
+                 theta_d = std::acos(std::clamp(a.voh, 0.0, 1.0));
+    const auto place = [](double part, std::size_t n) {
+      return std::min(static_cast<std::size_t>(part * static_cast<double>(n)), n - 1);
+    };
+    cells[place(std::sqrt(theta_h / (pi / 2)), rows) * columns + place(theta_d / (pi / 2), columns)]
+        .push_back(std::log(f));
+  }
+  double squares = 0, freedom = 0;
+  for (const auto& cell : cells) {
+    if (cell.size() < least) continue;
+    double mean = 0;
+    for (const double x : cell) mean += x / static_cast<double>(cell.size());
+    for (const double x : cell) squares += (x - mean) * (x - mean);
+    freedom += static_cast<double>(cell.size() - 1);
+  }
+  return freedom > few ? std::sqrt(squares / freedom) : std::nan("");
+}
+
+/// Angles counted from the surface put highlights elsewhere, or let them fall towards grazing.
+bool warn_of_elevation(TableFacts& facts, std::vector<std::string>& all) {
+  const Table& t = facts.table();
+  constexpr std::size_t large = 100'000;
+  if (t.format != "csv" || !t.list() || t.size() > large) return false;
+  if (highlight_falls(facts)) {
+    all.emplace_back(
+        "the highlight falls towards grazing, where those of surfaces rise: are zenith angles "
+        "elevations? (gonio columns FILE --map theta_i=90-COLUMN theta_o=90-COLUMN …)");
+    return true;
+  }
+  constexpr double less = 1.6, shows = 0.05, widest_deg = 20;
+  const double here = scatter(t);
+  if (!(here > shows)) return false;
+  const char* name = nullptr;
+  double least = HUGE_VAL;
+  for (const auto& [of, incident] : {std::pair("theta_i", true), {"theta_o", false}}) {
+    const Table turned = with_elevations(t, incident, !incident);
+    const double there = scatter(turned);
+    TableFacts of_turned(turned);
+    const auto& peak = of_turned.peak().peak;
+    if (!(less * there < here) || !peak || peak->half_width_deg > widest_deg) continue;
+    // With the wrong one turned both are elevations.
+    const double score = highlight_falls(of_turned) ? here : there;
+    if (score < least) least = score, name = of;
+  }
+  if (!name) return false;
+  all.push_back(fmt::format(
+      "values follow the half vector far better with 90° less {} in its place: is {} an "
+      "elevation? (gonio columns FILE --map {}=90-COLUMN …)",
+      name, name, name));
+  return true;
+}
+
+void warn_of_dark_channels(const Table& t, std::vector<std::string>& all) {
+  std::string dark;
+  for (std::size_t c = 0; c < t.values.size(); ++c)
+    if (std::ranges::none_of(t.values[c], [](double v) { return v > 0; }))
+      dark += (dark.empty() ? "" : ", ") + t.channels[c];
+  if (!dark.empty())
+    all.push_back(fmt::format("no value of channel {} is above 0: nothing is known of it", dark));
+}
+
 void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
   // Numbers that somebody typed may be as short.
   constexpr std::size_t most_by_hand = 50, few_values = 8;
@@ -293,45 +441,106 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
         100 * typical));
 }
 
-/// A greatest value that many samples share, as they share no other, is where a detector was full.
-void warn_of_full_detector(const Table& t, std::vector<std::string>& all) {
+/// Number of values at the end of a range, where many share the last one, as they share no other near it.
+/// \param values  of a channel or of several with one end, sorted from that end on
+/// \param is_near  whether a value is near the last one
+template <class Near>
+std::size_t shared_end(const std::vector<double>& values, const Near& is_near) {
+  std::size_t run = 0, last = 0, longest = 0;  // of equal values: this, at the end, and elsewhere
+  for (std::size_t k = 0; k < values.size() && is_near(values[k]); ++k) {
+    run = k > 0 && values[k] == values[k - 1] ? run + 1 : 1;
+    (values[k] == values[0] ? last : longest) =
+        std::max(values[k] == values[0] ? last : longest, run);
+  }
+  constexpr std::size_t few = 8, others = 4;
+  return last < few || longest == 0 || last < others * longest || 500 * last < values.size() ? 0
+                                                                                             : last;
+}
+
+/// Last value that many samples share, of a channel or of several that end there.
+struct SharedEnd {
+  double value;
+  std::size_t sharers, values;
+  std::vector<std::string> channels;
+};
+std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
   const SampleAngles at(t);
   const std::size_t step = t.size() / 60'000 + 1;
+  std::map<double, std::pair<std::vector<double>, std::vector<std::string>>> with_end;
   for (std::size_t c = 0; c < t.values.size(); ++c) {
     std::vector<double> values;
     for (std::size_t i = 0; i < t.size(); i += step)
       if (const double v = t.values[c][i]; v > 0 && mask(at(i), v) == Mask::valid)
         values.push_back(v);
+    if (values.empty()) continue;
+    const auto [low, high] = std::ranges::minmax(values);
+    auto& [together, channels] = with_end[greatest ? high : low];
+    together.insert(together.end(), values.begin(), values.end());
+    channels.push_back(t.channels[c]);
+  }
+  std::vector<SharedEnd> all;
+  for (auto& [end, found] : with_end) {
+    auto& [values, channels] = found;
     std::ranges::sort(values);
-    std::size_t run = 0,
-                longest = 0;  // of the same value, before the last run and up to half of it
-    for (std::size_t k = 0; k < values.size(); ++k) {
-      run = k > 0 && values[k] == values[k - 1] ? run + 1 : 1;
-      if (values[k] > values.back() / 2 && values[k] < values.back())
-        longest = std::max(longest, run);
-    }
-    constexpr std::size_t few = 8, others = 4;
-    if (run < few || longest == 0 || run < others * longest || 500 * run < values.size()) continue;
-    all.push_back(fmt::format(
-        "{} of {} values of channel {} are {}, and none is more: a full detector? (--mask '{} >= "
-        "{}' leaves them out)",
-        run, values.size(), t.channels[c], values.back(), t.channels[c], values.back()));
+    if (greatest) std::ranges::reverse(values);
+    const auto is_near = [&, last = end](double v) {
+      return greatest ? v > last / 2 : v < 2 * last;
+    };
+    if (const std::size_t n = shared_end(values, is_near))
+      all.push_back({end, n, values.size(), std::move(channels)});
+  }
+  return all;
+}
+
+/// A greatest value that many samples share is where a detector was full; a least one, where noise was clipped.
+void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
+  const auto found = [](const SharedEnd& e) {
+    return fmt::format("{} of {} values of channel {} are {}", e.sharers, e.values,
+                       fmt::join(e.channels, ", "), e.value);
+  };
+  const Table& t = facts.table();
+  if (const auto full = shared_ends(t, true); !full.empty()) {
+    std::vector<std::string> conditions;
+    for (const auto& e : full)
+      for (const auto& channel : e.channels)
+        conditions.push_back(
+            fmt::format("{} >= {}", channel == "f" ? channel : "f_" + channel, e.value));
+    all.push_back(
+        fmt::format("{}, and none is more: a full detector? (--mask '{}' leaves them out)",
+                    found(full[0]), fmt::join(conditions, " or ")));
+  }
+  for (const auto& e : shared_ends(t, false)) {
+    // A computed base is shared, too; clipped noise goes on above.
+    std::vector<double> above;
+    for (const auto& d : facts.noise_samples().all)
+      if (const double v = t.values[d.channel][d.sample]; v > e.value && v < 10 * e.value)
+        above.push_back(std::abs(d.more));
+    constexpr std::size_t few = 8;
+    constexpr double noisy = 0.1;
+    if (above.size() < few || !(median(above) > noisy)) continue;
+    all.push_back(found(e) +
+                  ", and none is less: clipped noise? (--metric l2_cosine minds it less)");
     return;
   }
+}
+
+/// Noise lets neighbours change sides; what was taken off too much does not.
+void warn_of_offset(TableFacts& facts, std::vector<std::string>& all) {
+  if (facts.negative_channel() || facts.negative_offset() == 0) return;
+  all.push_back(fmt::format(
+      "negative values, typically -{:.2g} 1/sr, follow their neighbours: an offset and no noise, "
+      "perhaps too much dark signal taken off (--metric l2_cosine minds it less)",
+      facts.negative_offset()));
 }
 
 void warn_of_negative_channel(TableFacts& facts, std::vector<std::string>& all) {
   const auto of = facts.negative_channel();
   if (!of) return;
   const Table& t = facts.table();
-  std::string others;
-  for (std::size_t c = 0; c < t.channels.size(); ++c)
-    if (c != *of) others += fmt::format(" f_{0}=f_{0}", t.channels[c]);
   all.push_back(fmt::format(
       "all negative values are of channel {}: a colour outside the gamut, or an offset; noise "
       "would show in all channels{}",
-      t.channels[*of],
-      t.format == "csv" ? fmt::format(" (gonio columns FILE --map{} leaves it out)", others) : ""));
+      t.channels[*of], without_channel(t, *of)));
 }
 
 /// A value that is said to be far surer than the others, which a fit then goes through.
@@ -388,11 +597,15 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   const auto* c = warn_of_cosine(facts, cosine);
   warn_of_light(facts, c && c->incident + c->outgoing < 0, texts);
   const std::size_t of_scale = texts.size();
+  if (!c && warn_of_elevation(facts, texts))
+    cosine.clear();  // of exchanged directions there is nothing more to say
   texts.insert(texts.end(), cosine.begin(), cosine.end());
-  const std::size_t of_unit = texts.size();
-  warn_of_zeros(facts, texts);
   warn_of_negative_channel(facts, texts);
-  warn_of_full_detector(facts.table(), texts);
+  warn_of_offset(facts, texts);
+  warn_of_shared_ends(facts, texts);
+  const std::size_t of_unit = texts.size();
+  warn_of_dark_channels(facts.table(), texts);
+  warn_of_zeros(facts, texts);
   warn_of_sure_values(facts.table(), texts);
   std::vector<ValueWarning> all;
   for (auto& text : texts)

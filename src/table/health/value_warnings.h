@@ -13,7 +13,8 @@ namespace gonio {
 /// whose exchange changes values; zeros that noise or digits made; one channel below 0.
 struct ValueWarning {
   std::string text;
-  bool of_unit;           ///< light or a cosine: no model is to blame for what it misses then
+  bool of_unit;  ///< light, a cosine, angles or an offset: no model is to blame for what it misses
+                 ///< then
   bool of_scale = false;  ///< light: not of a table whose scale is free
 };
 std::vector<ValueWarning> value_warnings(TableFacts&);

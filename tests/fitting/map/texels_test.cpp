@@ -351,6 +351,57 @@ TEST(Texels, FitTheNormalThatTheirHighlightsTell) {
   EXPECT_GT(kept.rms[39], 10 * f.rms[39]);
 }
 
+TEST(Texels, FindNormalsFarFromTheMapsOwnUnderRoughSurfaces) {
+  StackOptions made;
+  made.model = "oren_nayar";
+  made.texels = 90;
+  made.channels = 1;
+  Stack s = test::stack(made);
+  s.images = 8;
+  s.light.resize(24);
+  s.view.resize(24);
+  s.values.assign(8 * s.texels, 0);
+  const auto rough = bind_model("oren_nayar", {{"kd", {0.5}}, {"sigma", {0.3}}}, 1);
+  const auto lamp = [](std::size_t i) {
+    return direction(50 * degree, 45 * degree * static_cast<double>(i));
+  };
+  for (std::size_t i = 0; i < 8; ++i) {
+    const Direction l = lamp(i);
+    const std::array xyz{l.x, l.y, l.z};
+    for (std::size_t k = 0; k < 3; ++k) {
+      s.light[3 * i + k] = static_cast<float>(xyz[k]);
+      s.view[3 * i + k] = k == 2;
+    }
+  }
+  std::vector<Direction> normals;
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    const auto part = static_cast<double>(t) / static_cast<double>(s.texels);
+    const Direction z = normals.emplace_back(direction((10 + 50 * part) * degree, 11 * part));
+    for (std::size_t i = 0; i < 8; ++i) {
+      const Direction l = lamp(i), v{0, 0, 1};
+      if (dot(l, z) <= 0) continue;
+      const double across = std::hypot(z.y, z.z);
+      const Direction x{across, -z.x * z.y / across, -z.x * z.z / across};
+      const Direction y{z.y * x.z - z.z * x.y, z.z * x.x - z.x * x.z, z.x * x.y - z.y * x.x};
+      const std::vector a{frame_angles({Direction{dot(l, x), dot(l, y), dot(l, z)},
+                                        Direction{dot(v, x), dot(v, y), dot(v, z)}})};
+      s.values[i * s.texels + t] =
+          static_cast<float>(evaluate(rough, a)[0][0] * dot(l, z) / std::cos(50 * degree));
+    }
+  }
+  TexelOptions o = options("oren_nayar");
+  o.refine_normals = true;
+  const TexelFit f = fit_texels(s.samples(), o);
+  std::size_t right = 0;
+  for (std::size_t t = 0; t < s.texels; ++t) {
+    const Direction n{double{f.normal[t]}, double{f.normal[s.texels + t]},
+                      double{f.normal[2 * s.texels + t]}};
+    right += std::acos(std::min(dot(n, normals[t]), 1.0)) < 0.2 * degree &&
+             std::abs(double{f.columns[0].value[t]} - 0.5) < 0.01;
+  }
+  EXPECT_GE(right, s.texels * 9 / 10);
+}
+
 TEST(Texels, OfNormalsThatAreFittedLeaveOutWhatMayBeAttachedShadow) {
   StackOptions made;
   made.model = "lambert";

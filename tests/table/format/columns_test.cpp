@@ -536,6 +536,20 @@ TEST(ColumnMap, LaysOutAMatrix) {
                    "column 200: found 200, expected a number in [-180, 180] in the header");
 }
 
+TEST(ColumnMap, TakesElevations) {
+  const std::string both = R"("theta_i":"90-el","theta_o":"90-#2","f":"f")";
+  EXPECT_EQ(samples(read("el,to,f\n30,80,1\n90,60,2\n", both)),
+            (Lines{"60 0 10 0: 1", "0 0 30 0: 2"}));
+  EXPECT_EQ(
+      samples(read("el,to,f\n0,1,1\n", R"("theta_i":"90-el","theta_o":"to","unit":"radians")")),
+      (Lines{"90 0 57.2958 0: 1"}));
+  EXPECT_EQ(samples(read("90-el,to,f\n30,80,1\n", R"("theta_i":"90-el","theta_o":"to")")),
+            (Lines{"30 0 80 0: 1"}))
+      << "a column of that very name";
+  expect_complaint("el,to,f\n30,80,1\n", R"("theta_i":"90-x","theta_o":"to")",
+                   "no column 'x' for theta_i");
+}
+
 TEST(ColumnMap, TakesHalfAndDifferenceAngles) {
   const std::string map = R"("theta_h":"h","theta_d":"d","phi_d":"p","f":"f")";
   EXPECT_EQ(samples(read("h,d,p,f,theta_i\n0,30,0,1,7\n20,30,90,2,7\n", map))[0],

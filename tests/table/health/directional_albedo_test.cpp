@@ -2,6 +2,7 @@
 #include "table/health/directional_albedo.h"
 
 #include <cmath>
+#include <random>
 
 #include "brdf/model/evaluate.h"
 #include "table/example.h"
@@ -48,6 +49,55 @@ TEST(AlbedoOfATable, IsWithinItsErrorWhereSamplesAreFurtherApartThanTheHighlight
   for (const auto& [theta_i, truth] : {std::pair(0.0, 0.3399), {45.0, 0.3425}, {75.0, 0.5342}}) {
     const auto a = directional_albedo(t, theta_i);
     EXPECT_NEAR(a.albedo[0], truth, a.error) << theta_i;
+  }
+}
+
+/// A metal in rings around the normal, every `step` degrees.
+Table rings(double alpha, double step) {
+  DirectionList l;
+  for (const double in : {0.0, 20.0})
+    for (double out = 0; out < 88; out += step)
+      for (double phi = 0; phi < (out > 0 ? 360 : 1); phi += 10) {
+        l.theta_i_deg.push_back(in);
+        l.phi_i_deg.push_back(0);
+        l.theta_o_deg.push_back(out);
+        l.phi_o_deg.push_back(phi);
+      }
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  t.where = std::move(l);
+  test::put_values(
+      t, bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {alpha}}, {"f0", {1}}}, 1));
+  return t;
+}
+
+TEST(AlbedoOfATable, IsSaidOfAListOnlyAsFarAsItsRingsShowTheHighlight) {
+  for (const double alpha : {0.01, 0.02, 0.05, 0.1, 0.3})
+    for (const double step : {2.0, 5.0, 10.0})
+      for (const auto& a : directional_albedo(rings(alpha, step))) {
+        const double truth = alpha < 0.2 ? 0.99 : 0.88;  // by `gonio albedo`, to 0.01
+        EXPECT_NEAR(a.albedo[0], truth, a.error + 0.02) << alpha << " " << step;
+      }
+  EXPECT_TRUE(directional_albedo(rings(0.02, 5)).empty())
+      << "a hundredth of the hemisphere decides";
+  EXPECT_EQ(directional_albedo(rings(0.3, 5)).size(), 2U);
+}
+
+TEST(AlbedoOfATable, OfAListTakesNoiseBelowZeroAndNoMarks) {
+  const Table clean = rings(0.3, 5);
+  const auto whole = directional_albedo(clean);
+  Table marked = clean, noisy = clean;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (std::size_t i = 0; i < clean.size(); ++i) {
+    if (i % 20 == 7) marked.values[0][i] = -999;
+    noisy.values[0][i] += 0.02 * normal(random);
+  }
+  for (const Table& t : {marked, noisy}) {
+    const auto found = directional_albedo(t);
+    ASSERT_EQ(found.size(), 2U);
+    for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(found[k].albedo[0], whole[k].albedo[0], 0.03);
   }
 }
 

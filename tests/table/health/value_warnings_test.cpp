@@ -182,6 +182,17 @@ TEST(ValueWarnings, SayThatADetectorWasFull) {
   const auto said = said_of(painted(180), [](const auto&, double f) { return std::min(f, 0.12); });
   EXPECT_TRUE(says(said, "values of channel f are 0.12, and none is more: a full detector?"));
   EXPECT_TRUE(says(said, "(--mask 'f >= 0.12' leaves them out)"));
+  // Few in each channel, but of one detector.
+  Table t = painted(180);
+  t.channels = {"r", "g", "b"};
+  t.values.resize(3, t.values[0]);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const auto three = said_of(t, [&](const auto&, double f) {
+    return std::min(f * std::exp(0.01 * normal(random)), 0.33);
+  });
+  EXPECT_TRUE(says(three, "values of channel r, g, b are 0.33, and none is more"));
+  EXPECT_TRUE(says(three, "(--mask 'f_r >= 0.33 or f_g >= 0.33 or f_b >= 0.33' leaves them out)"));
   // Short numbers are shared by many samples, the greatest by no more than others.
   EXPECT_FALSE(
       says(said_of(painted(180), [](const auto&, double f) { return std::round(f * 100) / 100; }),
@@ -232,6 +243,88 @@ TEST(Uncertainties, FarBelowTheOthersAreNamed) {
     t.errors[0][16] = 1e-9;
     EXPECT_TRUE(said()) << of_value;
   }
+}
+
+/// Zenith angles, of light or viewer or both, as elevations above the surface.
+Table as_elevations(Table t, bool incident, bool outgoing) {
+  auto& l = std::get<DirectionList>(t.where);
+  for (auto& [theta, turns] : {std::pair(&l.theta_i_deg, incident), {&l.theta_o_deg, outgoing}})
+    if (turns)
+      for (double& deg : *theta) deg = 90 - deg;
+  return t;
+}
+
+TEST(ValueWarnings, SayThatZenithAnglesAreElevations) {
+  for (const double alpha : {0.1, 0.2, 0.4}) {
+    const Table t = painted(180, 0.1, alpha, 4);
+    EXPECT_TRUE(
+        says(said_of(as_elevations(t, true, true), as_it_is), "are zenith angles elevations?"))
+        << alpha;
+    EXPECT_TRUE(says(said_of(as_elevations(t, false, true), as_it_is), "is theta_o an elevation?"))
+        << alpha;
+    EXPECT_TRUE(says(said_of(as_elevations(t, true, false), as_it_is), "is theta_i an elevation?"))
+        << alpha;
+    for (const double kd : {0.0, 0.02, 0.6})
+      for (const double turn : {0.0, 180.0})
+        EXPECT_FALSE(says(said_of(painted(turn, kd, alpha, 4), as_it_is), "elevation"))
+            << alpha << " " << kd;
+  }
+}
+
+TEST(ValueWarnings, BlameNoBrightMirrorForItsNarrowHighlight) {
+  for (const double alpha : {0.01, 0.02, 0.05}) {
+    Table t = painted(360, 0, alpha);
+    test::put_values(
+        t, bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {alpha}}, {"f0", {1}}}, 1));
+    EXPECT_FALSE(says(said_of(t, as_it_is), "the light")) << alpha;
+  }
+}
+
+TEST(ValueWarnings, NameTheOnlyChannelWithAnotherScale) {
+  const auto said = [](std::array<double, 3> scale) {
+    Table t = painted(180, 0.1);
+    t.channels = {"r", "g", "b"};
+    t.values.resize(3, t.values[0]);
+    for (std::size_t c = 0; c < 3; ++c)
+      for (double& f : t.values[c]) f *= scale[c];
+    return said_of(t, as_it_is);
+  };
+  EXPECT_TRUE(says(said({1, 100, 1}), "channel g returns"));
+  EXPECT_TRUE(says(said({1, 100, 1}), "--map f_r=f_r f_b=f_b leaves it out"));
+  EXPECT_FALSE(says(said({100, 100, 100}), "channel"));
+  EXPECT_FALSE(says(said({20, 2, 2}), "channel")) << "a red pigment in other units";
+  EXPECT_TRUE(says(said({1, 0, 1}), "no value of channel g is above 0"));
+}
+
+TEST(ValueWarnings, TellAnOffsetBelowZeroFromNoise) {
+  const auto said = [](double offset, double noise) {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    return said_of(painted(180, 0.05, 0.15), [&](const auto&, double f) {
+      return f * std::exp(0.01 * normal(random)) + noise * normal(random) - offset;
+    });
+  };
+  EXPECT_TRUE(says(said(0.018, 0), "an offset and no noise"));
+  EXPECT_FALSE(says(said(0.018, 0.01), "an offset and no noise"));
+  EXPECT_FALSE(says(said(0, 0.02), "an offset and no noise"));
+}
+
+TEST(ValueWarnings, SayThatNoiseWasClippedToALeastValue) {
+  const auto said = [](double noise, double least) {
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    return said_of(painted(180, 0.002, 0.15), [&](const auto&, double f) {
+      return std::max(f + noise * normal(random), least);
+    });
+  };
+  EXPECT_TRUE(says(said(0.002, 1e-4), "are 0.0001, and none is less: clipped noise?"));
+  EXPECT_FALSE(says(said(0, 1e-4), "clipped noise?"));
+  Table matt = painted(0);  // in plane, and computed: its base is shared
+  test::put_values(matt, bind_model("oren_nayar", {{"kd", {0.5}}, {"sigma", {0.5}}}, 1));
+  EXPECT_FALSE(says(said_of(matt, as_it_is), "clipped noise?"));
+  // Far from a computed highlight all values may be those of its base.
+  EXPECT_FALSE(says(said_of(painted(180), [](const auto&, double f) { return std::max(f, 0.1); }),
+                    "clipped noise?"));
 }
 
 TEST(Reciprocity, KnowsNoAzimuthAtTheNormal) {
