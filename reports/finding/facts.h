@@ -89,8 +89,9 @@ struct Facts {
   struct SplitSum {
     std::size_t size, bytes;
     double rms;
-    /// Greatest ΔE2000 of the split itself, mean over the views of one environment, F0 and roughness: head on and at cosine 0.1.
-    std::optional<double> head_on{}, grazing{};
+    /// Greatest ΔE2000 of the split itself, mean over the views of one environment, F0 and roughness: head on, at cosine 0.5 and at
+    /// cosine 0.1.
+    std::optional<double> head_on{}, from_side{}, grazing{};
     std::optional<double> ns{};  ///< of a pixel
   };
   std::optional<SplitSum> split_sum{};

@@ -164,12 +164,14 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto all = decisions(made_facts());
   const auto& tails = about(all, "Distribution");
   EXPECT_EQ(tails.take_id, "ndf.ggx");
-  EXPECT_EQ(tails.error,
-            "typical factor of f ×/÷ 1.5: 17 of 20 measured materials have a longer tail");
+  EXPECT_EQ(
+      tails.error,
+      "typical factor ×/÷ 1.5 beside published fits: 17 of 20 measured materials have a longer "
+      "tail");
   EXPECT_EQ(tails.unless, "γ is fitted (median 1.4): GTR, ×/÷ 1.2, +0.80 ns for D");
   const auto& matte = about(all, "Diffuse of matte surfaces");
   EXPECT_EQ(matte.take_id, "diffuse.eon");
-  EXPECT_EQ(matte.error, "none (Lambert: ΔE 14)");
+  EXPECT_EQ(matte.error, "none (it is the reference; Lambert: ΔE 14)");
   EXPECT_EQ(matte.cost, "+0.48 ns");
   const auto& below = about(all, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.hammon") << "the only one that makes no light";
@@ -180,12 +182,14 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   EXPECT_EQ(light.cost, "one look-up");
   EXPECT_EQ(light.unless, "");
   auto f = made_facts();
-  f.split_sum->head_on = 1.26, f.split_sum->grazing = 14, f.split_sum->ns = 21;
+  f.split_sum->head_on = 1.26, f.split_sum->from_side = 9.4, f.split_sum->grazing = 14;
+  f.split_sum->ns = 21;
   const auto lit = decisions(f);
   EXPECT_EQ(about(lit, "Image-based light").cost, "21 ns a pixel");
-  EXPECT_EQ(about(lit, "Image-based light").error, "mean ΔE ≤ 1.3 (only the table: RMS 0.0008)");
+  EXPECT_EQ(about(lit, "Image-based light").error,
+            "mean ΔE ≤ 1.3 head on, 9.4 at 60° (only the table: RMS 0.0008)");
   EXPECT_EQ(about(lit, "Image-based light").unless,
-            "rims are looked at: integrate there, where the mean ΔE is ≤ 14");
+            "rims are looked at: integrate, at cosine 0.1 the mean ΔE is ≤ 14");
 }
 
 TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
