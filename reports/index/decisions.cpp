@@ -122,7 +122,9 @@ void masking(std::vector<Decision>& to, const Facts& f) {
 
 /// Materials that were measured, by the fits that were published of them: what a tail other than GGX's costs, and gains.
 void distribution(std::vector<Decision>& to, const Facts& f) {
-  const auto *ggx = time_of(f.in_cache, "ndf.ggx"), *gtr = time_of(f.in_cache, "ndf.gtr");
+  // A distribution by itself writes a fraction, which a whole model divides once with its masking.
+  const auto *ggx = time_of(f.whole, "ggx/smith_ggx.correlated/schlick"),
+             *gtr = time_of(f.whole, "gtr/smith_ggx.correlated/schlick");
   if (!ggx || !gtr || !f.tails) return;
   const auto& t = *f.tails;
   const auto cheap = candidate(ggx->id, 0, *ggx), other = candidate(gtr->id, 0, *gtr);
@@ -132,7 +134,7 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
                             "longer tail",
                             factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
                 std::string(no_more),
-                fmt::format("γ is fitted (median {:.2g}): GTR, {}, {} for D", t.gamma,
+                fmt::format("γ is fitted (median {:.2g}): GTR, {}, {}", t.gamma,
                             factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
@@ -352,14 +354,12 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
 void image_light(std::vector<Decision>& to, const Facts& f) {
   if (!f.split_sum) return;
   const auto& s = *f.split_sum;
-  const auto table = fmt::format("RMS {:.1g}", s.rms);
   // A sphere shows its middle head on, and most of itself from the side.
   to.push_back(
       {"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
-       s.head_on && s.from_side
-           ? fmt::format("mean ΔE ≤ {} head on, {} at 60° (only the table: {})",
-                         short_number(*s.head_on), short_number(*s.from_side), table)
-           : table + " of E",
+       s.head_on && s.from_side ? fmt::format("mean ΔE ≤ {} head on, {} at 60°",
+                                              short_number(*s.head_on), short_number(*s.from_side))
+                                : fmt::format("RMS {:.1g} of E", s.rms),
        s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
        s.grazing ? fmt::format("rims are looked at: integrate, at cosine 0.1 the mean ΔE is ≤ {}",
                                short_number(*s.grazing))

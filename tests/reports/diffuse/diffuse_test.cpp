@@ -6,6 +6,7 @@
 
 #include "brdf/catalogue/registry.h"
 #include "reports/diffuse/forms.h"
+#include "reports/page/render.h"
 #include "reports/pictures.h"
 #include "reports/plain.h"
 
