@@ -255,14 +255,14 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   std::size_t at = 0;
   for (std::size_t i = 0; i < coat->rows.size(); ++i) {  // the same rows, as far as the coat's go
     const double off = std::abs(coat->rows[i].albedo - smith->rows[i].albedo);
-    if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
+    if (off > most) most = off, at = i;
   }
   const auto& row = coat->rows[at];
   to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",
            "Burley 2012, Physically-Based Shading at Disney", verdict_on_small(most),
            fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
-           fmt::format("as it ships it is furthest from its own Smith masking at {}, where mu is "
-                       "0.1 or more. Before Fresnel the coat there reflects {} instead of {}.",
+           fmt::format("as it ships it is furthest from its own Smith masking at {}. Before "
+                       "Fresnel the coat there reflects {} instead of {}.",
                        place(row.roughness, row.mu), percent(row.albedo),
                        percent(smith->rows[at].albedo)));
 }
