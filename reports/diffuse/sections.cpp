@@ -58,7 +58,7 @@ Section albedos(const Pictures& p) {
 
 /// "Oren–Nayar from roughness 0.6 on": where no kd gives back what the reference does; empty: nowhere.
 std::string too_dark(const DiffuseRows& all) {
-  constexpr double equal = 0.999;  // to what the averages are known
+  constexpr double equal = 0.99;  // less is hardly seen
   std::vector<std::string> parts;
   for (const auto& f : all.forms) {
     std::optional<double> from;

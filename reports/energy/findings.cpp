@@ -160,9 +160,9 @@ void of_single_lights(Findings& to, const EnergyRows& r) {
   const auto& by_light = ways[ways[0].left < ways[1].left ? 0 : 1];
   const auto& by_albedo = ways[rms(ways[0]) < rms(ways[1]) ? 0 : 1];
   to.say(by_light.id == by_albedo.id
-             ? fmt::format("So {} is nearer there, as it is by albedos.", by_light.name)
-             : fmt::format("So {} is nearer there, and by albedos {}: these are light from all "
-                           "sides, and one light shows the lobe's shape.",
+             ? fmt::format("Where they pay, {} leaves less at most, as by albedos.", by_light.name)
+             : fmt::format("Where they pay, {} leaves less at most. By albedos {} does: these are "
+                           "light from all sides, and one light shows the lobe's shape.",
                            by_light.name, by_albedo.name));
 }
 

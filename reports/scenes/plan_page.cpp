@@ -71,11 +71,16 @@ std::string found(const scene::Plan& p, std::string_view unit) {
   const auto of = [&](const scene::MaterialPlan& m) {
     return p.materials.size() == 1 ? std::string() : ", of " + m.name;
   };
+  const auto beside = far.bounded
+                          ? std::string()
+                          : fmt::format(" from {}", scene::reference_in_words(far.reference));
   return fmt::format(
-      "At {} of the fresh points the plan differs by at most {}{}{}; the worst "
-      "point differs by {}{}.",
-      percent(p.tolerance.quantile), unit, rounded_up(upper(far), p.holds ? 2 : 3), of(far),
-      significant(worst.checked.worst, 2), worst.name == far.name ? "" : of(worst));
+      "At {} of the fresh points the plan differs{} by {}{}{}{}; the worst point "
+      "differs by {}{}.{}",
+      percent(p.tolerance.quantile), beside, far.bounded ? "at most " : "", unit,
+      rounded_up(upper(far), p.holds ? 2 : 3), of(far), significant(worst.checked.worst, 2),
+      worst.name == far.name ? "" : of(worst),
+      far.bounded ? "" : " No walk is known of this lobe, so that is no bound.");
 }
 
 std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
@@ -256,7 +261,7 @@ std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
       spheres(s, p)};
   for (const auto& m : p.materials) out.sections.push_back(one(m, p, unit_name));
   out.setting =
-      "Points are what viewers see, half of them near highlights. Every figure of this page is in "
+      "Points are what viewers see, half of them near highlights. Every number of the tables is in "
       "the plan beside it.";
   return page_html(out, {});
 }

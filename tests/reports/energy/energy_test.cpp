@@ -347,10 +347,10 @@ TEST(EnergyReport, RanksCompensationsUnderASingleLightByWhatTheyLeaveWhereTheyPa
       << "not the 13.6 of a roughness where it is further off";
   EXPECT_TRUE(said("There it leaves ΔE2000 11 at most, where one bounce leaves 29."));
   EXPECT_TRUE(
-      said("So Kulla and Conty is nearer there, and by albedos Turquin: these are light "
-           "from all sides, and one light shows the lobe's shape."));
+      said("Where they pay, Kulla and Conty leaves less at most. By albedos Turquin does: "
+           "these are light from all sides, and one light shows the lobe's shape."));
   r.compensations[0].rms = 0.001;
-  EXPECT_TRUE(said("So Kulla and Conty is nearer there, as it is by albedos."));
+  EXPECT_TRUE(said("Where they pay, Kulla and Conty leaves less at most, as by albedos."));
 }
 
 TEST(EnergyReport, PicturesShowWhatWasMeasured) {

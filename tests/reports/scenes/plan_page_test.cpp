@@ -79,5 +79,15 @@ TEST(PlanPage, NamesAMaterialThatKeepsTheToleranceInNoForm) {
   EXPECT_NE(page.find("the reference itself is known to 0.96"), page.npos);
 }
 
+TEST(PlanPage, BoundsNothingOfALobeThatNoWalkIsKnownOf) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  auto& m = p.materials.at(0);
+  m.bounded = false, m.reference = "kulla_conty", m.checked.quantile = 0.79;
+  const auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find(" by ΔE2000 0.79;"), page.npos);
+  EXPECT_NE(page.find("so that is no bound"), page.npos);
+}
+
 }  // namespace
 }  // namespace gonio
