@@ -6,6 +6,7 @@
 #include "cli/line/command.h"
 #include "cli/line/reading.h"
 #include "cli/line/terminal.h"
+#include "reports/finding/words.h"
 #include "stability/answer.h"
 
 #include <fmt/format.h>
@@ -68,9 +69,10 @@ std::string evidence_text(const Answer& a) {
 /// "alpha 0.0042 (roughness 0.065)", "nowhere"
 std::string least_text(const Least& l, const std::string& decides) {
   if (!l.value) return "nowhere";
-  return is_alpha(decides) ? fmt::format("{} {:.4g} ({} {:.3g})", decides, *l.value,
-                                         roughness_name(decides), roughness_of(*l.value))
-                           : fmt::format("{} {:.4g}", decides, *l.value);
+  const auto value = rounded_up(*l.value, 4);
+  return is_alpha(decides) ? fmt::format("{} {} ({} {})", decides, value, roughness_name(decides),
+                                         rounded_up(roughness_of(*l.value), 3))
+                           : fmt::format("{} {}", decides, value);
 }
 std::string evidence_of_least(const Least& l) {
   if (l.evidence == Evidence::exhaustive) return "every input looked at";

@@ -10,6 +10,7 @@
 #include "cli/line/terminal.h"
 #include "fitting/export/materialx_plan.h"
 #include "geometry/direction.h"
+#include "reports/finding/words.h"
 #include "reports/scenes/plan_page.h"
 #include "scene/plan/document.h"
 
@@ -40,7 +41,8 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
                   m.ops_saved < 0 ? fmt::format("{:.2g} × the operations", 1 - m.ops_saved)
                                   : fmt::format("{:.0f} % fewer operations", 100 * m.ops_saved),
                   looked_up ? ", lookups not counted" : "");
-  const auto time = fmt::format("{:.3g} × as fast", m.speedup);
+  const auto time = m.speedup < 1 ? fmt::format("{:.3g} × as slow", 1 / m.speedup)
+                                  : fmt::format("{:.3g} × as fast", m.speedup);
   const bool by_time = cost == Cost::time;
   say("{}: {}, {}\n", m.name, by_time ? time : operations, by_time ? operations : time);
   say("  take    {}\n", m.spec);
@@ -56,9 +58,9 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
   if (m.bounded)
     say_below(
         "  check   ",
-        fmt::format("{:.3g} % of {} fresh points differ by at most {} {:.2g}; the worst by {:.2g}",
-                    100 * t.quantile, m.checked.samples, unit_of(t), m.checked.upper,
-                    m.checked.worst));
+        fmt::format("{:.3g} % of {} fresh points differ by at most {} {}; the worst by {:.2g}",
+                    100 * t.quantile, m.checked.samples, unit_of(t),
+                    rounded_up(m.checked.upper, m.holds ? 2 : 3), m.checked.worst));
   else
     say_below(
         "  check   ",
@@ -122,7 +124,7 @@ Exit run(const PlanCall& o) {
   progress.clear();
   const auto document = to_json(plan);
   files.write_document(document);
-  if (files.has_page()) files.write_page(plan_page_html(plan), document);
+  if (files.has_page()) files.write_page(plan_page_html(s, plan), document);
   MaterialxPlan written;
   if (materials) {
     written = in_materialx(s, plan, document);

@@ -121,24 +121,28 @@ class Comparison {
     for (const auto& m : materials)
       for (const bool plastic : {false, true}) {
         std::vector<BoundModel> models;
+        std::vector<double> given_back;
         const auto target = average_of_reference(eon, m, plastic);
-        for (const auto& f : forms_)
+        for (const auto& f : forms_) {
           models.push_back(is_of(f, plastic) ? model_of_average(f, m, plastic, target)
                                              : BoundModel{});
+          given_back.push_back(is_of(f, plastic) ? least_share(average(models.back()), target) : 1);
+        }
         for (std::size_t l = 0; l < lights.size(); ++l) {
           const auto truth = reference_values(eon, m, points_[l], plastic);
           std::vector<double> light;
           for (const auto& p : points_[l]) light.push_back(pi * p.nol);
           for (std::size_t f = 0; f < forms_.size(); ++f)
             if (is_of(forms_[f], plastic))
-              put(out, forms_[f], m, plastic, lights[l].name,
+              put(out, forms_[f], m, plastic, lights[l].name, given_back[f],
                   compared(evaluate(models[f], points_[l]), truth, light));
         }
         const auto truth = reference_albedo(eon, m, plastic);
         const std::vector<double> ones(o_.mu.size(), 1);
         for (std::size_t f = 0; f < forms_.size(); ++f)
           if (is_of(forms_[f], plastic))
-            put(out, forms_[f], m, plastic, even_light, compared(albedo(models[f]), truth, ones));
+            put(out, forms_[f], m, plastic, even_light, given_back[f],
+                compared(albedo(models[f]), truth, ones));
       }
     return out;
   }
@@ -159,6 +163,12 @@ class Comparison {
                },
                b.model.channels, false, {1e-4, 100'000})
         .value;
+  }
+  /// Over the channels, of what the target asks for.
+  static double least_share(const std::vector<double>& found, const std::vector<double>& target) {
+    double least = 1;
+    for (std::size_t c = 0; c < target.size(); ++c) least = std::min(least, found[c] / target[c]);
+    return least;
   }
   /// Of the reference below the lobe: what comes through both ways, as Lambert would give it back.
   std::vector<double> average_of_reference(const DiffuseForm& eon,
@@ -232,12 +242,14 @@ class Comparison {
            const Material& m,
            bool plastic,
            const char* light,
+           double given_back,
            DiffuseColour c) const {
     c.form = f.id;
     c.surface = plastic ? "plastic" : "matte";
     c.material = m.name;
     c.light = light;
     c.roughness = roughness_;
+    c.given_back = given_back;
     to.push_back(std::move(c));
   }
 

@@ -50,6 +50,7 @@ struct DiffuseColour {
   double roughness;
   double delta_e;       ///< most over the points lit
   double delta_e_mean;  ///< over the points lit
+  double given_back;  ///< on average, over the reference's: below 1 where kd would have to exceed 1
 };
 
 struct DiffuseRows {

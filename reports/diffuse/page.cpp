@@ -46,7 +46,10 @@ inline constexpr auto description<DiffuseColour> =
                     "front, side, rim: of a ball; even: of a plane, by angle"},
               Field{"roughness", &DiffuseColour::roughness, ""},
               Field{"delta_e_2000", &DiffuseColour::delta_e, "most over the points lit"},
-              Field{"delta_e_2000_mean", &DiffuseColour::delta_e_mean, "over the points"}};
+              Field{"delta_e_2000_mean", &DiffuseColour::delta_e_mean, "over the points"},
+              Field{"given_back", &DiffuseColour::given_back,
+                    "on average over the hemisphere, over the reference's; below 1 where kd = 1 "
+                    "gives back less"}};
 static_assert(describes_every_member<DiffuseColour>());
 
 template <>

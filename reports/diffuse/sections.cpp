@@ -1,7 +1,9 @@
 // The page of the report on diffuse forms.
 #include <algorithm>
+#include <optional>
 
 #include "reports/diffuse/diffuse.h"
+#include "reports/finding/words.h"
 #include "reports/page/numbers.h"
 #include "reports/page/section.h"
 
@@ -54,12 +56,26 @@ Section albedos(const Pictures& p) {
           {Shown{"average"}, c}};
 }
 
-Section looks(const Pictures& p) {
+/// "Oren–Nayar from roughness 0.6 on": where no kd gives back what the reference does; empty: nowhere.
+std::string too_dark(const DiffuseRows& all) {
+  constexpr double equal = 0.99;  // less is hardly seen
+  std::vector<std::string> parts;
+  for (const auto& f : all.forms) {
+    std::optional<double> from;
+    for (const auto& c : all.colours)
+      if (c.form == f.id && c.given_back < equal) from = std::min(from.value_or(1), c.roughness);
+    if (from) parts.push_back(fmt::format("{} from roughness {} on", f.name, plain(*from)));
+  }
+  return list_text(parts);
+}
+
+Section looks(const DiffuseRows& all, const Pictures& p) {
   Choice c;
   c.controls = {{"surface", "Surface", "matte"},
                 {"material", "Material", "chalk", true},
                 {"light", "Light", "front light", true}};
   c.slots = {slot_of(p, "delta_e", c.controls, 340)};
+  const auto dark = too_dark(all);
   return {
       "How each looks beside the reference",
       "A ball under one light from the front, from 60° and from 120° to the view, or a plane "
@@ -67,7 +83,9 @@ Section looks(const Pictures& p) {
       "Matte surfaces are compared with EON. Plastic has a GGX lobe of F0 = 0.04 and of the "
       "same roughness on every form; its reference is EON below that lobe, coupled by albedos "
       "as in Kelemen and Szirmay-Kalos (2001), which loses and makes no light. Every form gives "
-      "back as much on average as the reference: its kd is so chosen.",
+      "back as much on average as the reference: its kd is so chosen." +
+          (dark.empty() ? std::string()
+                        : fmt::format(" On chalk even kd = 1 gives back less: {}.", dark)),
       {c}};
 }
 
@@ -84,7 +102,7 @@ page::Page report_page(const DiffuseReport& r) {
   out.first = opening(r.pictures, "average");
   out.sections = {summary(r.rows),
                   albedos(r.pictures),
-                  looks(r.pictures),
+                  looks(r.rows, r.pictures),
                   {"How it is measured",
                    "",
                    {Points{{"Roughness is what a renderer's slider sets: α = r² for Disney's, "

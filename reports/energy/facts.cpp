@@ -52,7 +52,10 @@ void add_split_sum(Facts& to, const ImageLight& light) {
   constexpr std::size_t bytes_of_texel = 2 * 2;
   Facts::SplitSum s{table->size, table->size * table->size * bytes_of_texel, table->lookup_rms};
   for (const auto& l : light.lit) {
-    auto* const seen = l.nov == 1 ? &s.head_on : l.nov == 0.1 ? &s.grazing : nullptr;
+    auto* const seen = l.nov == 1     ? &s.head_on
+                       : l.nov == 0.5 ? &s.from_side
+                       : l.nov == 0.1 ? &s.grazing
+                                      : nullptr;
     if (seen) *seen = std::max(seen->value_or(0), l.delta_e);
   }
   if (!light.costs.empty()) s.ns = light.costs[0].ns;  // the split sum's

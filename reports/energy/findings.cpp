@@ -1,5 +1,6 @@
 // The energy report in sentences: made from its figures alone.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "brdf/catalogue/registry.h"
@@ -108,7 +109,7 @@ void of_compensations(Findings& to, const EnergyRows& r) {
         r.albedo_forms[1].operations, std::abs(r.albedo_forms[1].worst)));
 }
 
-/// Under a single light the order is that of pictures, not of albedos.
+/// Under a single light the order is that of pictures, and need not be that of albedos.
 void of_single_lights(Findings& to, const EnergyRows& r) {
   constexpr double metal = 0.9;
   const auto all = facts(r).scattering;
@@ -119,26 +120,50 @@ void of_single_lights(Findings& to, const EnergyRows& r) {
   };
   const auto nothing = of("single");
   if (nothing == all.end()) return;
-  for (const auto& [id, name] :
-       {std::pair("kulla_conty", "Kulla and Conty"), {"turquin", "Turquin"}}) {
-    const auto way = of(id);
-    if (way == all.end()) continue;
+  struct Way {
+    std::string_view id, name;
+    double left = 0;  ///< ΔE2000 at most, from where it pays on
+  };
+  std::array ways{Way{"kulla_conty", "Kulla and Conty"}, Way{"turquin", "Turquin"}};
+  for (auto& w : ways) {
+    const auto way = of(w.id);
+    if (way == all.end()) return;
     const auto from = nearer_from(*way, *nothing);
-    to.say(
-        from
-            ? fmt::format("Under a single light, white metal of F0 = {:g} with {} is nearer to all "
-                          "bounces than with nothing from roughness {:g} on.",
-                          metal, name, *from)
-            : fmt::format("Under a single light, white metal of F0 = {:g} with {} is no nearer to "
-                          "all bounces than with nothing.",
-                          metal, name));
-    to.say(fmt::format("The most that it leaves there is ΔE2000 {:.2g}, over all roughnesses.",
-                       std::ranges::max(way->delta_e)));
+    if (!from) {
+      to.say(
+          fmt::format("Under a single light, white metal of F0 = {:g} with {} is no nearer to "
+                      "all bounces than with nothing.",
+                      metal, w.name));
+      w.left = HUGE_VAL;
+      continue;
+    }
+    double without = 0;
+    for (std::size_t i = 0; i < way->roughness.size(); ++i)
+      if (way->roughness[i] >= *from) {
+        w.left = std::max(w.left, way->delta_e[i]);
+        without = std::max(without, nothing->delta_e[i]);
+      }
+    to.say(fmt::format(
+        "Under a single light, white metal of F0 = {:g} with {} is nearer to all "
+        "bounces than with nothing {}.",
+        metal, w.name,
+        *from == way->roughness.front() ? std::string("at every roughness looked at")
+                                        : fmt::format("from roughness {:g} on", *from)));
+    to.say(fmt::format("There it leaves ΔE2000 {:.2g} at most, where one bounce leaves {:.2g}.",
+                       w.left, without));
   }
-  to.say(fmt::format(
-      "Albedos rank them otherwise, of F0 = {:g} too: they are light from all sides, and one "
-      "light shows the lobe's shape.",
-      metal));
+  const auto rms = [&](const Way& w) {
+    const auto c = std::ranges::find(r.compensations, w.id, &CompensationCost::id);
+    return c == r.compensations.end() ? HUGE_VAL : c->rms;
+  };
+  if (ways[0].left == ways[1].left || rms(ways[0]) == rms(ways[1])) return;
+  const auto& by_light = ways[ways[0].left < ways[1].left ? 0 : 1];
+  const auto& by_albedo = ways[rms(ways[0]) < rms(ways[1]) ? 0 : 1];
+  to.say(by_light.id == by_albedo.id
+             ? fmt::format("Where they pay, {} leaves less at most, as by albedos.", by_light.name)
+             : fmt::format("Where they pay, {} leaves less at most. By albedos {} does: these are "
+                           "light from all sides, and one light shows the lobe's shape.",
+                           by_light.name, by_albedo.name));
 }
 
 /// Error of the split sum, where it shows most.
@@ -162,9 +187,13 @@ void of_split_sum(Findings& to, const EnergyRows& r) {
         fmt::format("The split sum changes white metal seen head on by a mean ΔE2000 of {:.2g} "
                     "at most, under {} at roughness {:g}.",
                     head_on->delta_e, light(*head_on), head_on->roughness));
+    if (const auto* side = most(1, 0.5))
+      to.say(
+          fmt::format("Seen at mu = 0.5, where the lobe is no longer round, it is {:.2g}, under "
+                      "{}.",
+                      side->delta_e, light(*side)));
     to.say(
-        fmt::format("Seen at mu = 0.1, where the lobe is no longer round, it is {:.2g}, under {}.",
-                    grazing->delta_e, light(*grazing)));
+        fmt::format("Seen at mu = 0.1 it is {:.2g}, under {}.", grazing->delta_e, light(*grazing)));
   }
   if (const auto* plastic = most(0.04, 0.1))
     to.say(
@@ -226,7 +255,7 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   std::size_t at = 0;
   for (std::size_t i = 0; i < coat->rows.size(); ++i) {  // the same rows, as far as the coat's go
     const double off = std::abs(coat->rows[i].albedo - smith->rows[i].albedo);
-    if (coat->rows[i].mu >= 0.1 && off > most) most = off, at = i;
+    if (off > most) most = off, at = i;
   }
   const auto& row = coat->rows[at];
   to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",

@@ -20,6 +20,7 @@ std::optional<double> nearer_from(const Facts::Scattering& way, const Facts::Sca
 void join(Facts& to, const Facts& from) {
   if (from.setting) to.setting = from.setting;
   append(to.in_cache, from.in_cache);
+  append(to.whole, from.whole);
   append(to.streaming, from.streaming);
   append(to.masking, from.masking);
   append(to.fresnel, from.fresnel);

@@ -23,14 +23,15 @@ struct Facts {
     std::optional<double> model_ns{};
   };
   std::optional<Setting> setting{};
-  /// Time of a sample in float [ns]: of a term in columns that stay in cache, or of a whole model, fused, in columns that do not.
+  /// Time of a sample in float [ns]: of a term in columns that stay in cache; of a whole model, fused, in such columns, and in columns
+  /// that do not.
   struct Time {
     std::string id;  ///< of the term, or the model's spec
     double ns, spread;
     std::vector<double>
         each{};  ///< in each process that measured, in their order; empty: one alone
   };
-  std::vector<Time> in_cache{}, streaming{};
+  std::vector<Time> in_cache{}, whole{}, streaming{};
   /// RMS distance of a masking form's G₂ from height-correlated Smith's for GGX, over directions and roughness.
   struct Masking {
     std::string form;
@@ -89,8 +90,9 @@ struct Facts {
   struct SplitSum {
     std::size_t size, bytes;
     double rms;
-    /// Greatest ΔE2000 of the split itself, mean over the views of one environment, F0 and roughness: head on and at cosine 0.1.
-    std::optional<double> head_on{}, grazing{};
+    /// Greatest ΔE2000 of the split itself, mean over the views of one environment, F0 and roughness: head on, at cosine 0.5 and at
+    /// cosine 0.1.
+    std::optional<double> head_on{}, from_side{}, grazing{};
     std::optional<double> ns{};  ///< of a pixel
   };
   std::optional<SplitSum> split_sum{};

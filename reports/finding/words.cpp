@@ -20,6 +20,13 @@ std::string short_text(double x) {
   if (x > 0 && x < least) return "under 0.0001";
   return x < 9.95 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x);
 }
+std::string rounded_up(double x, int digits) {
+  const auto text = fmt::format("{:.{}g}", x, digits);
+  const double read = std::stod(text);
+  if (!std::isfinite(x) || x == 0 || read >= x) return text;
+  const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) + 1 - digits);
+  return fmt::format("{:.{}g}", read + unit, digits);
+}
 std::string number_or_none(std::size_t n) {
   return n == 0 ? "none" : fmt::format("{}", n);
 }

@@ -15,6 +15,8 @@ namespace gonio {
 std::string percent(double share, int digits = 3);
 /// "0.031", "4.2", "120", "under 0.0001": as it is read aloud, without a power of ten.  \param x  not negative
 std::string short_text(double x);
+/// A number to so many digits, never below it: "0.004" of 0.00391.  A limit from which on something holds stays one where it is read.
+std::string rounded_up(double, int digits = 2);
 /// "2", "none"
 std::string number_or_none(std::size_t);
 /// "2 of 39", "none of 100"

@@ -120,18 +120,21 @@ void masking(std::vector<Decision>& to, const Facts& f) {
 
 // --- Distribution ---
 
-/// Materials that were measured, not made: what a tail other than GGX's costs, and gains.
+/// Materials that were measured, by the fits that were published of them: what a tail other than GGX's costs, and gains.
 void distribution(std::vector<Decision>& to, const Facts& f) {
-  const auto *ggx = time_of(f.in_cache, "ndf.ggx"), *gtr = time_of(f.in_cache, "ndf.gtr");
+  // A distribution by itself writes a fraction, which a whole model divides once with its masking.
+  const auto *ggx = time_of(f.whole, "ggx/smith_ggx.correlated/schlick"),
+             *gtr = time_of(f.whole, "gtr/smith_ggx.correlated/schlick");
   if (!ggx || !gtr || !f.tails) return;
   const auto& t = *f.tails;
   const auto cheap = candidate(ggx->id, 0, *ggx), other = candidate(gtr->id, 0, *gtr);
   const auto factor = [](double log_rms) { return fmt::format("×/÷ {:.3g}", std::exp(log_rms)); };
   to.push_back({"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
-                fmt::format("typical factor of f {}: {} measured materials have a longer tail",
+                fmt::format("typical factor {} beside published fits: {} measured materials have a "
+                            "longer tail",
                             factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
                 std::string(no_more),
-                fmt::format("γ is fitted (median {:.2g}): GTR, {}, {} for D", t.gamma,
+                fmt::format("γ is fitted (median {:.2g}): GTR, {}, {}", t.gamma,
                             factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
@@ -287,7 +290,8 @@ std::optional<double> seen_from(const Facts::Scattering& s) {
   return {};
 }
 
-/// Compensation from a roughness on, below which nothing is done: where it shows and is nearer than nothing.
+/// Compensation from a roughness on, below which nothing is done: where it shows and is nearer than nothing.  No value where what it
+/// gains is not seen.
 struct Compensated {
   double from;
   double error;  ///< greatest ΔE2000 of both parts
@@ -299,6 +303,7 @@ std::optional<Compensated> compensated(const Facts::Scattering& way,
   Compensated c{std::max(*nearer, *seen), 0};
   for (std::size_t i = 0; i < way.roughness.size(); ++i)
     c.error = std::max(c.error, (way.roughness[i] < c.from ? nothing : way).delta_e[i]);
+  if (std::ranges::max(nothing.delta_e) - c.error < just_seen) return {};
   return c;
 }
 
@@ -349,13 +354,14 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
 void image_light(std::vector<Decision>& to, const Facts& f) {
   if (!f.split_sum) return;
   const auto& s = *f.split_sum;
-  const auto table = fmt::format("RMS {:.1g}", s.rms);
+  // A sphere shows its middle head on, and most of itself from the side.
   to.push_back(
       {"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
-       s.head_on ? fmt::format("mean ΔE ≤ {} (only the table: {})", short_number(*s.head_on), table)
-                 : table + " of E",
+       s.head_on && s.from_side ? fmt::format("mean ΔE ≤ {} head on, {} at 60°",
+                                              short_number(*s.head_on), short_number(*s.from_side))
+                                : fmt::format("RMS {:.1g} of E", s.rms),
        s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
-       s.grazing ? fmt::format("rims are looked at: integrate there, where the mean ΔE is ≤ {}",
+       s.grazing ? fmt::format("rims are looked at: integrate, at cosine 0.1 the mean ΔE is ≤ {}",
                                short_number(*s.grazing))
                  : ""});
 }
@@ -398,7 +404,9 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   if (taken->form != cheap_id && own)
     d.error += below_lobe ? fmt::format("; gives back {} at most (Lambert: {})",
                                         made(*form_of(taken->form)), made(*lambert))
-                          : fmt::format(" (Lambert: ΔE {})", short_number(*own));
+                          : fmt::format(" ({}Lambert: ΔE {})",
+                                        is_exact(*taken) ? "it is the reference; " : "",
+                                        short_number(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
     d.unless = fmt::format("more light may be made: {}, ΔE ≤ {}", in_text(nearer->form),
@@ -430,12 +438,13 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                   "none (half keeps its digits from no α on)", "", ""});
     return;
   }
-  to.push_back(
-      {"Precision: D V F NoL of GGX in half",
-       fmt::format("|n × h|², α clamped at {:.2g}", *half->safe_from), "ndf.ggx",
-       fmt::format("≤ {}, up to {:.0f}° of both", percent(half->tolerance, 1), half->zenith_deg),
-       fmt::format("roughness below {:.2g} (looks that rough)", std::sqrt(*half->safe_from)),
-       fmt::format("only D is in half: α clamped at {:.2g}", *own->safe_from)});
+  to.push_back({"Precision: D V F NoL of GGX in half",
+                fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
+                fmt::format("≤ {}, up to {:.0f}° of both (a search found no more)",
+                            percent(half->tolerance, 1), half->zenith_deg),
+                fmt::format("roughness below {} (looks that rough)",
+                            rounded_up(std::sqrt(*half->safe_from))),
+                fmt::format("only D is in half: α clamped at {}", rounded_up(*own->safe_from))});
 }
 
 }  // namespace

@@ -328,8 +328,9 @@ std::string index_page_html(const ReportIndex& i) {
                 "wavelengths are 650, 550 and 450 nm.",
                 "Masking is compared with height-correlated Smith for GGX: RMS of G₂ over both "
                 "cosines from 0.05 to 1 and over roughness.",
-                "Bounces are compared with transport between the facets, for F0 from 0.04 to 1 "
-                "under Schlick's Fresnel, seen from cosine 0.1 on.",
+                "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on: image-based "
+                "light with transport between the facets under even light, single lights with "
+                "random walks on a ball lit from 30° and from 120° to the view.",
                 "Times are medians over several processes on this machine. A difference counts "
                 "where each of them finds it, above its spread and 3 % of the time.",
                 "Compensations are timed in one process, one light and view at a time."}}},

@@ -11,6 +11,7 @@
 #include "brdf/model/own_files.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/albedo/normalisation.h"
+#include "reports/finding/words.h"
 #include "reports/measure/samples.h"
 #include "stability/answer.h"
 
@@ -58,8 +59,8 @@ std::string half_text(const stability::Answer& a) {
     s = "open: a search found nothing, and there is no proof";
   }
   if (a.safe_from && a.safe_from->value)
-    s += fmt::format("; from {} {:.4g} on it is ({})", a.domain.empty() ? "" : a.domain[0].first,
-                     *a.safe_from->value, name_of(a.safe_from->evidence));
+    s += fmt::format("; from {} {} on it is ({})", a.domain.empty() ? "" : a.domain[0].first,
+                     rounded_up(*a.safe_from->value, 4), name_of(a.safe_from->evidence));
   return s;
 }
 

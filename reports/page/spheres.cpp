@@ -17,7 +17,7 @@ namespace {
 using Rgb = std::array<unsigned char, 3>;
 constexpr Rgb no_difference{0xe9, 0xe7, 0xe0}, hardly_seen{0xa9, 0x8f, 0xc4},
     seen{0xf0, 0xa8, 0x68}, most_seen{0xb3, 0x47, 0x0b};
-constexpr unsigned not_known = 254;
+constexpr unsigned not_known = 254, beside = 255;
 
 Rgb colour_of(double x, const DifferenceScale& s) {
   const bool low = x <= s.limit;
@@ -42,20 +42,22 @@ std::string difference_png(std::string_view bytes, std::size_t pixels, const Dif
     const auto byte = static_cast<unsigned char>(c);
     const std::size_t i = image.pixels.size();
     const unsigned char grey = (i % pixels + i / pixels) % 8 < 4 ? 136 : 184;
-    image.pixels.push_back(s.hatched && byte == not_known ? Rgb{grey, grey, grey}
-                                                          : colour_of(byte / s.steps, s));
+    image.pixels.push_back(byte == beside                   ? Rgb{0, 0, 0}
+                           : s.hatched && byte == not_known ? Rgb{grey, grey, grey}
+                                                            : colour_of(byte / s.steps, s));
   }
   return base64(png_bytes(image));
 }
 
 std::string sphere_figure(std::string_view caption,
                           std::size_t pixels,
-                          const std::vector<SpherePicture>& pictures) {
+                          const std::vector<SpherePicture>& pictures,
+                          bool whole) {
   std::string images, below;
   for (const auto& p : pictures) {
     images += fmt::format(
-        R"(<img class="sphere" width="{0}" height="{0}" src="data:image/png;base64,{1}" alt="{2}">)",
-        pixels, p.png, markup_text(p.of));
+        R"(<img class="sphere{3}" width="{0}" height="{0}" src="data:image/png;base64,{1}" alt="{2}">)",
+        pixels, p.png, markup_text(p.of), whole ? " whole" : "");
     if (!p.word.empty()) below += fmt::format("<small>{}</small>", p.word);
   }
   return fmt::format(

@@ -15,7 +15,7 @@ struct DifferenceScale {
   double limit, max;  ///< hardly seen; the largest that is told apart
   bool hatched;       ///< 254 is a pixel that is not known
 };
-/// PNG in base64 of differences.  \param bytes  one a pixel, in base64
+/// PNG in base64 of differences.  \param bytes  one a pixel, in base64; 255 is beside what is shown: black
 std::string difference_png(std::string_view bytes, std::size_t pixels, const DifferenceScale&);
 
 struct SpherePicture {
@@ -23,10 +23,11 @@ struct SpherePicture {
   std::string of;           ///< what a reader hears who does not see it
   std::string_view word{};  ///< below it
 };
-/// Figure of pictures beside each other.
+/// Figure of pictures beside each other.  \param whole  they show more than one sphere that fills them: to their corners
 std::string sphere_figure(std::string_view caption,
                           std::size_t pixels,
-                          const std::vector<SpherePicture>&);
+                          const std::vector<SpherePicture>&,
+                          bool whole = false);
 /// What the colours of differences mean.
 std::string sphere_keys(const DifferenceScale&);
 

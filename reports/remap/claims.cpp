@@ -94,7 +94,7 @@ std::vector<RemapUse> uses_of_k(const std::vector<RemapForm>& forms, std::span<c
 std::vector<RemapG1> claimed_g1() {
   std::vector<RemapG1> out;
   constexpr double nov = 0.1;
-  constexpr double r = 0.5;  // the seed's example
+  constexpr double r = 0.5;  // the claim's example
   for (const auto& [k, claimed] : {std::pair(r * r / 2, 0.47), {(r + 1) * (r + 1) / 8, 0.28}})
     // G1 depends on k alone, and alpha = 2k says it
     out.push_back({k, nov, claimed, g1(form_id::image_k, 2 * k, nov), r,

@@ -27,8 +27,9 @@ std::string times_text(double ratio) {
 std::string delta_text(double error) {
   return fmt::format("{:.{}f}", error, error < 9.95 ? error < 0.095 ? 2 : 1 : 0);
 }
+/// Part of the time of all that the material has: what it has not, no shader would compute.
 double saved(const SceneRow& r) {
-  return 1 - r.ns_float / r.ns_exact_float;
+  return 1 - r.ns_float / r.ns_present_float;
 }
 /// Material as it stands in a sentence.
 std::string material_text(const std::string& material) {
@@ -76,13 +77,19 @@ void savings(Findings& to, const ScenesRows& r) {
       no_difference, percent(middle, 2), percent(all.back(), 2), scene_text(most),
       none.empty() ? fmt::format("The least is saved for {}", scene_text(least))
                    : fmt::format("As good as nothing can be saved for {}", scenes_text(none))));
-  if (!slower.empty()) {
-    const auto* const slowest = *std::ranges::min_element(
-        slower, {}, [](const SceneRow* row) { return row->ns_exact_float / row->ns_float; });
+  for (const bool by_table : {true, false}) {
+    std::vector<const SceneRow*> these;
+    std::ranges::copy_if(slower, std::back_inserter(these),
+                         [&](const SceneRow* row) { return row->needs_table == by_table; });
+    if (these.empty()) continue;
+    const auto* const slowest = *std::ranges::min_element(these, {}, &SceneRow::speedup_float);
     to.say(
-        fmt::format("Plans take longer than everything on for {}: up to {} times as long. Only the "
-                    "tabulated light between facets keeps the tolerance there.",
-                    scenes_text(slower), times_text(slowest->ns_float / slowest->ns_exact_float)));
+        fmt::format("Plans take longer than all that the material has, for {}: {}{} times as "
+                    "long.",
+                    scenes_text(these), these.size() == 1 ? "" : "up to ",
+                    times_text(1 / slowest->speedup_float)));
+    to.say(by_table ? "Only the tabulated light between facets keeps the tolerance there."
+                    : "No faster set of forms keeps the tolerance there.");
   }
   to.headline = fmt::format(
       "Leaving out what nobody sees saves {} or more of a shader's time in half of {} scenes, and "
@@ -140,12 +147,12 @@ void lights(Findings& to, const ScenesRows& r) {
   const auto slow = row(*kept), fast = row(*dropped);
   if (slow != r.rows.end() && fast != r.rows.end() && fast->speedup_float > slow->speedup_float)
     to.say(fmt::format(
-        "So {} is {} times as fast as with everything on under {}, and {} times under {}.",
+        "So {} is {} times as fast as with all that it has under {}, and {} times under {}.",
         kept->material, times_text(fast->speedup_float), fast->light,
         times_text(slow->speedup_float), slow->light));
 }
 
-/// Effects that most scenes keep, and that fewest do.
+/// How many scenes keep what shaders often leave out.
 void counts(Findings& to, const ScenesRows& r) {
   struct Asked {
     std::string_view effect, name;
@@ -158,9 +165,11 @@ void counts(Findings& to, const ScenesRows& r) {
   for (const auto& e : r.effects)
     if (const auto at = std::ranges::find(asked, e.effect, &Asked::effect); at != asked.end())
       at->kept += e.keep;
-  const auto [least, most] = std::ranges::minmax(asked, {}, &Asked::kept);
-  to.say(fmt::format("In {} scenes, {} keep {}, the most; {} keep {}, the fewest.", r.rows.size(),
-                     number_or_none(most.kept), most.name, number_or_none(least.kept), least.name));
+  std::ranges::stable_sort(asked, std::ranges::greater{}, &Asked::kept);
+  for (std::size_t i = 0; i < asked.size(); i += 2)
+    to.say(capital(fmt::format("{} is kept in {} scenes, and {} in {}.", asked[i].name,
+                               of_all(asked[i].kept, r.rows.size()), asked[i + 1].name,
+                               number_or_none(asked[i + 1].kept))));
 }
 
 /// Change by three wavelengths in place of a metal's spectrum.

@@ -2,6 +2,7 @@
 /// \file
 /// Measurements of scenes, and the names that the report gives to effects.
 
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -16,9 +17,11 @@ std::string name_of_form(scene::Effect, std::size_t form);
 /// Name of an effect as a whole: "Fresnel", "masking".
 std::string_view name_of_effect(scene::Effect);
 
-/// Picture of a lit scene of one sphere, with all effects and as planned.  \param pixels  width and height
+/// Steps that a byte of a picture's differences has to ΔE2000 1.
+inline constexpr double steps_of_difference = 50;
+/// Picture of a lit scene, with all effects and as planned.  \param planned  by material  \param pixels  width and height
 ScenePicture picture_of(const scene::Lit&,
-                        const scene::Forms& planned,
+                        std::span<const scene::Forms> planned,
                         std::size_t pixels,
                         std::size_t samples);
 

@@ -3,8 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "reports/finding/words.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
+#include "reports/page/spheres.h"
+#include "reports/scenes/measure.h"
+#include "scene/plan/samples.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -51,6 +55,34 @@ std::string kept_words(const scene::Forms& forms) {
   return out.empty() ? "nothing" : fmt::format("{}", fmt::join(out, ", "));
 }
 
+/// How the time changes: "6.3 × as fast", "18 × as slow".
+std::string speed(double ratio) {
+  return ratio < 1 ? times(1 / ratio) + " as slow" : times(ratio) + " as fast";
+}
+
+/// What the plan was found to differ by, in the material that differs most.
+std::string found(const scene::Plan& p, std::string_view unit) {
+  const auto upper = [](const scene::MaterialPlan& m) {
+    return m.bounded ? m.checked.upper : m.checked.quantile;
+  };
+  const auto& far = *std::ranges::max_element(p.materials, {}, upper);
+  const auto& worst = *std::ranges::max_element(
+      p.materials, {}, [](const scene::MaterialPlan& m) { return m.checked.worst; });
+  const auto of = [&](const scene::MaterialPlan& m) {
+    return p.materials.size() == 1 ? std::string() : ", of " + m.name;
+  };
+  const auto beside = far.bounded
+                          ? std::string()
+                          : fmt::format(" from {}", scene::reference_in_words(far.reference));
+  return fmt::format(
+      "At {} of the fresh points the plan differs{} by {}{}{}{}; the worst point "
+      "differs by {}{}.{}",
+      percent(p.tolerance.quantile), beside, far.bounded ? "at most " : "", unit,
+      rounded_up(upper(far), p.holds ? 2 : 3), of(far), significant(worst.checked.worst, 2),
+      worst.name == far.name ? "" : of(worst),
+      far.bounded ? "" : " No walk is known of this lobe, so that is no bound.");
+}
+
 std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
   std::vector<std::string> out;
   std::vector<const scene::MaterialPlan*> shippable;
@@ -58,27 +90,27 @@ std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
     if (!m.needs_table()) shippable.push_back(&m);
   std::ranges::sort(shippable, {}, &scene::MaterialPlan::speedup);
   if (shippable.size() == 1)
-    out.push_back(fmt::format("Dropping what this scene does not need makes {} {} as fast.",
-                              shippable[0]->name, times(shippable[0]->speedup)));
+    out.push_back(fmt::format("Dropping what this scene does not need makes {} {}.",
+                              shippable[0]->name, speed(shippable[0]->speedup)));
   else if (!shippable.empty())
     out.push_back(fmt::format(
-        "Dropping what this scene does not need makes {} {} as fast, and {}, which needs the most, "
-        "{}.",
-        shippable.back()->name, times(shippable.back()->speedup), shippable[0]->name,
-        times(shippable[0]->speedup)));
+        "Dropping what this scene does not need makes {} {}, and {}, which needs the most, {}.",
+        shippable.back()->name, speed(shippable.back()->speedup), shippable[0]->name,
+        speed(shippable[0]->speedup)));
   for (const auto& m : p.materials)
     if (m.needs_table())
       out.push_back(fmt::format(
           "No shader has the light between facets that {} needs here: what shaders have "
-          "differs by {}{} at best.",
-          m.name, unit, significant(m.shipped_upper, 2)));
+          "differs by {}{} at best. The table makes it {}.",
+          m.name, unit, significant(m.shipped_upper, 2), speed(m.speedup)));
+  out.push_back(found(p, unit));
   if (!p.holds)
-    out.push_back(
-        "Some material keeps the tolerance in no form that is offered: its plan is the nearest.");
-  else
-    out.push_back(fmt::format(
-        "At {} of the points the plan differs by at most {}{}, and nowhere by more than {}.",
-        percent(p.tolerance.quantile), unit, plain(p.tolerance.limit), plain(p.tolerance.max)));
+    for (const auto& m : p.materials)
+      if (!m.holds)
+        out.push_back(fmt::format(
+            "No form that is offered keeps {}{} for {}: its plan is the nearest, and the reference "
+            "itself is known to {}.",
+            unit, plain(p.tolerance.limit), m.name, significant(m.reference_error, 2)));
   if (p.budget)
     out.push_back(p.budget->fits
                       ? fmt::format("A visible point takes {} ns of the {} ns that the scene "
@@ -89,6 +121,30 @@ std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
                                     "ns that the scene allows.",
                                     significant(p.budget->ns), plain(p.budget->budget_ns)));
   return out;
+}
+
+/// The scene as a display shows it, with all effects, as planned, and the difference.
+Section spheres(const scene::Scene& s, const scene::Plan& p) {
+  constexpr std::size_t pixels = 192, samples = 4;
+  const scene::Lit lit(s);
+  std::vector<scene::Forms> forms;
+  for (const auto& m : s.materials) {
+    const auto at = std::ranges::find(p.materials, m.name, &scene::MaterialPlan::name);
+    forms.push_back(at == p.materials.end() ? lit.looks[forms.size()].exact() : at->forms);
+  }
+  const auto made = scenes::picture_of(lit, forms, pixels, samples);
+  const bool relative = p.tolerance.metric == scene::Metric::relative;
+  const DifferenceScale scale{scenes::steps_of_difference, relative ? 1 : p.tolerance.limit,
+                              relative ? 4 : p.tolerance.max, false};
+  return {"All effects, as planned, and the difference",
+          "",
+          {Markup{sphere_keys(scale) + R"(<div class="scene">)" +
+                  sphere_figure(fmt::format("ΔE up to {}", significant(made.worst, 2)), pixels,
+                                {{made.everything, "everything on"},
+                                 {made.planned, "as planned"},
+                                 {difference_png(made.difference, pixels, scale), "difference"}},
+                                true) +
+                  "</div>"}}};
 }
 
 Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::string& unit_name) {
@@ -110,8 +166,8 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
           e.keep   ? Cell{"keep" + form_words(e.form), {}, {}, "verdict-yes"}
           : absent ? Cell{"absent", {}, {}, "muted"}
                    : Cell{"drop"},
-          absent ? "0" : (proved ? "≤ " : "") + significant(e.error_if_dropped, 2),
-          absent && e.ops_saved == 0 ? "0" : significant(e.ns_saved, 2), rounded(e.ops_saved),
+          absent ? "–" : (proved ? "≤ " : "") + significant(e.error_if_dropped, 2),
+          absent ? "–" : significant(e.ns_saved, 2), absent ? "–" : rounded(e.ops_saved),
           Cell{absent   ? e.reason
                : proved ? "by proof"
                         : "measured",
@@ -120,7 +176,11 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                "muted"});
   }
   const auto& c = m.checked;
-  Section s{m.name, "", {t}};
+  Section s{m.name,
+            "Each effect dropped by itself, all others exact. Errors do not add, so the plan's set "
+            "is checked as a whole. What dropping saves is measured on all effects in double, "
+            "with Kulla and Conty's lobe between facets.",
+            {t}};
   if (!m.holds)
     s.parts.emplace_back(
         Prose{"No set of forms keeps the tolerance here. This one is the nearest."});
@@ -144,12 +204,24 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                  {fmt::format("{} at {}", unit_name, percent(p.tolerance.quantile)), true},
                  {"worst", true}},
                 {}};
-    for (const auto& f : m.front)
-      front.add(kept_words(f.forms), significant(f.ns), rounded(f.ops),
-                significant(f.error.quantile, 2), significant(f.error.worst, 2));
+    bool has_plan = false;
+    for (const auto& f : m.front) {
+      const bool is_plan = f.forms == m.forms;
+      has_plan = has_plan || is_plan;
+      front.add(Cell{kept_words(f.forms), {}, is_plan ? "the plan" : "", ""}, significant(f.ns),
+                rounded(f.ops),
+                m.bounded ? "≤ " + rounded_up(f.error.upper) : significant(f.error.quantile, 2),
+                significant(f.error.worst, 2));
+    }
     s.parts.emplace_back(
         Subtitle{fmt::format("{} sets of which none is faster and errs less", m.front.size())});
     s.parts.emplace_back(front);
+    if (!has_plan && m.holds)
+      s.parts.emplace_back(
+          Prose{fmt::format("The plan, at {} ns, is none of them: sets whose times differ by less "
+                            "than their spread count as equally fast, and fewer effects decide.",
+                            significant(m.ns)),
+                "small"});
   }
   return s;
 }
@@ -159,13 +231,13 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
 
 namespace gonio {
 
-std::string plan_page_html(const scene::Plan& p) {
+std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
   using namespace page;
   const bool relative = p.tolerance.metric == scene::Metric::relative;
   const std::string unit = relative ? "" : "ΔE2000 ", unit_name = relative ? "change" : "ΔE2000";
   Page out{"", "plan", "Plan of a scene", "Only what the scene needs", verdict(p, unit)};
   Table t{{{"material"},
-           {"as fast", true},
+           {"time", true},
            {"operations", true},
            {"keep"},
            {"drop"},
@@ -174,20 +246,22 @@ std::string plan_page_html(const scene::Plan& p) {
           {},
           "told-by-cell"};
   for (const auto& m : p.materials)
-    t.add(m.name, times(m.speedup), signed_percent(0 - m.ops_saved),
+    t.add(m.name, speed(m.speedup), signed_percent(0 - m.ops_saved),
           names(m, [](const auto& e) { return e.keep; }),
           names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
-          m.bounded ? "≤ " + significant(m.checked.upper, 2) : significant(m.checked.quantile, 2),
+          m.bounded ? "≤ " + rounded_up(m.checked.upper, m.holds ? 2 : 3)
+                    : significant(m.checked.quantile, 2),
           significant(m.checked.worst, 2));
   out.sections = {
       {"What to keep, and how much faster that is",
        "Times of the effects that a material has, in float, with Kulla and Conty's "
        "compensation, over the plan's; both of composed column kernels on this machine. "
        "Operations count no look-ups.",
-       {t}}};
+       {t}},
+      spheres(s, p)};
   for (const auto& m : p.materials) out.sections.push_back(one(m, p, unit_name));
   out.setting =
-      "Points are what viewers see, half of them near highlights. Every figure of this page is in "
+      "Points are what viewers see, half of them near highlights. Every number of the tables is in "
       "the plan beside it.";
   return page_html(out, {});
 }

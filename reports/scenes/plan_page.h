@@ -8,7 +8,7 @@
 
 namespace gonio {
 
-/// Page that shows, for each material, what to keep, what to drop and why.
-std::string plan_page_html(const scene::Plan&);
+/// Page that shows the scene with all effects and as planned, and for each material what to keep, what to drop and why.
+std::string plan_page_html(const scene::Scene&, const scene::Plan&);
 
 }  // namespace gonio

@@ -36,7 +36,7 @@ struct SceneRow {
   std::string kept, dropped, absent;  ///< names, comma between; absent: what the material has not
   std::string spec;
   double speedup = 1;        ///< everything on in double, over the plan
-  double speedup_float = 1;  ///< everything on in float, over the plan in float
+  double speedup_float = 1;  ///< all that the material has in float, over the plan in float
   double ops_saved = 0;      ///< share of the operations
   /// Times of f of one direction of light: the plan; everything on in double and in float; in float all that
   /// the material has; the plan in float.
@@ -45,6 +45,7 @@ struct SceneRow {
   std::uint64_t exceeding = 0, samples = 0;               ///< of the verification
   double upper_bound = 1;                                 ///< of the share that exceeds
   bool holds = false;
+  bool needs_table = false;  ///< it keeps light between facets as a table, which no shader has
 };
 /// Effect of a material under a light.
 struct SceneEffectRow {

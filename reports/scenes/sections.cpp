@@ -7,6 +7,7 @@
 #include "reports/page/numbers.h"
 #include "reports/page/section.h"
 #include "reports/page/spheres.h"
+#include "reports/scenes/measure.h"
 #include "reports/scenes/scenes.h"
 
 #include <fmt/format.h>
@@ -49,10 +50,10 @@ Section plans(const ScenesRows& all) {
   return {
       "What to keep, and what that does to the time",
       fmt::format(
-          "The large number compares the plan with everything on, both in float; the small one "
-          "compares it with everything on in double. A plan is slower where only the tabulated "
-          "light "
-          "between facets keeps the tolerance. All effects that are not kept are off. "
+          "The large number compares the plan with all that the material has, both in float, as "
+          "shaders ship it: with Kulla and Conty's lobe between facets. The small one compares it "
+          "with everything on in double. A plan is slower where nothing as fast as that lobe "
+          "keeps the tolerance. All effects that are not kept are off. "
           "A plan that holds differs by ΔE2000 {} or less at {} of the points, and by {} at "
           "most.{}",
           plain(all.tolerance.limit), percent(all.tolerance.quantile), plain(all.tolerance.max),
@@ -65,7 +66,7 @@ Section plans(const ScenesRows& all) {
 
 // --- Pictures
 DifferenceScale scale_of(const scene::Tolerance& t) {
-  return {50, t.limit, t.max, false};
+  return {scenes::steps_of_difference, t.limit, t.max, false};
 }
 std::string triple(const ScenePicture& p, const scene::Tolerance& t) {
   const auto of = [&](const char* how) {

@@ -1,7 +1,7 @@
 // Small pictures of a sphere: with all effects, and as planned.
 #include <algorithm>
-#include <array>
 #include <cmath>
+#include <vector>
 
 #include "base/base64.h"
 #include "image/display.h"
@@ -35,16 +35,17 @@ bool shows_object(const Lit& lit, std::size_t x, std::size_t y, std::size_t pixe
 }  // namespace
 
 ScenePicture picture_of(const Lit& lit,
-                        const Forms& planned,
+                        std::span<const Forms> planned,
                         std::size_t pixels,
                         std::size_t samples) {
-  constexpr double scale = 50, most = 254, none = 255;
+  constexpr double most = 254, none = 255;
   const RenderOptions options{pixels, pixels, samples, lit.scene.seed};
-  const Look& look = lit.looks[0];
-  const auto with = [&](const Forms& forms) {
-    return render(lit.scene, std::array{Shown(look, forms)}, options);
-  };
-  const Picture all = with(look.exact()), some = with(planned);
+  std::vector<Shown> exact, dropped;
+  for (std::size_t k = 0; k < lit.looks.size(); ++k) {
+    exact.emplace_back(lit.looks[k], lit.looks[k].exact());
+    dropped.emplace_back(lit.looks[k], planned[k]);
+  }
+  const Picture all = render(lit.scene, exact, options), some = render(lit.scene, dropped, options);
   const auto apart =
       differences(Metric::delta_e_2000, lit.scene.exposure, all.radiance, some.radiance);
   ScenePicture p;
@@ -54,7 +55,7 @@ ScenePicture picture_of(const Lit& lit,
   std::string bytes;
   for (std::size_t i = 0; i < apart.size(); ++i) {
     const bool object = shows_object(lit, i % pixels, i / pixels, pixels);
-    const double byte = object ? std::min(scale * apart[i], most) : none;
+    const double byte = object ? std::min(steps_of_difference * apart[i], most) : none;
     bytes += static_cast<char>(static_cast<unsigned char>(std::lround(byte)));
     if (object) p.worst = std::max(p.worst, apart[i]);
   }

@@ -33,9 +33,14 @@ Rows in_number(const StabilityRows& r, std::string_view number) {
   return out;
 }
 
-/// "alpha 0.035", "no alpha"
+/// "alpha 0.036", "no alpha"
 std::string from_text(const StabilityRow& r) {
-  return r.safe_from ? fmt::format("{} {:.2g}", r.decides, *r.safe_from) : "no " + r.decides;
+  return r.safe_from ? fmt::format("{} {}", r.decides, rounded_up(*r.safe_from))
+                     : "no " + r.decides;
+}
+/// What a search has not refuted is not established.
+std::string_view evidence_text(const StabilityRow& r) {
+  return r.evidence == stability::Evidence::searched ? ", as far as a search found" : "";
 }
 /// "errors up to 3.6 %", "values up to 3900 times too large"
 std::string worst_text(double relative) {
@@ -53,11 +58,11 @@ void which_alpha(Findings& to, const StabilityRows& r) {
       fmt::format("GGX in half precision keeps {} from {} on, if the shader computes |n × h|².",
                   percent(cross->tolerance, 1), from_text(*cross));
   if (cross->safe_from)
-    answer += fmt::format(" A clamp there changes only surfaces of a roughness below {:.2g}.",
-                          std::sqrt(*cross->safe_from));
+    answer += fmt::format(" A clamp there changes only surfaces of a roughness below {}.",
+                          rounded_up(std::sqrt(*cross->safe_from)));
   if (const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed"))
-    answer += fmt::format(" Where it rounds NoH to half instead, it does so from {} on.",
-                          from_text(*mobile));
+    answer += fmt::format(" Where it rounds NoH to half instead, it does so from {} on{}.",
+                          from_text(*mobile), evidence_text(*mobile));
   if (const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed"))
     answer += fmt::format(" On a processor that drops subnormals |n × h|² needs {}.",
                           from_text(*flushed));
@@ -65,9 +70,9 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   for (const auto& h : r.highlights)
     if (h.number == "half" && h.safe_from && h.finite_from && cross->safe_from) {
       to.say(fmt::format(
-          "The whole highlight on metal, D V F and then NoL, keeps {} in half from alpha {:.2g} "
-          "on, for light and view up to {:.0f}°.",
-          percent(h.tolerance, 1), *h.safe_from, h.zenith_deg));
+          "The whole highlight on metal, D V F and then NoL, keeps {} in half from alpha {} on, "
+          "for light and view up to {:.0f}°, as far as a search found.",
+          percent(h.tolerance, 1), rounded_up(*h.safe_from), h.zenith_deg));
       to.say(fmt::format("Below alpha {:.2g} the product is too large for half.", *h.finite_from));
     }
   struct Named {
@@ -89,10 +94,14 @@ void which_alpha(Findings& to, const StabilityRows& r) {
         to.say(fmt::format("{} in half does not keep {}: {} there are {}.", o.name, keeps,
                            row->worst_from_usual ? "even from alpha 0.05 on" : "somewhere",
                            worst_text(row->worst_from_usual.value_or(row->worst_rel))));
-      else if (*row->safe_from < 1e-5)
-        to.say(fmt::format("{} in half keeps {} for every alpha.", o.name, keeps));
-      else
-        to.say(fmt::format("{} in half keeps {} from {} on.", o.name, keeps, from_text(*row)));
+      else {
+        // Half's NoH is taken for exact: its own rounding is that of mixed numbers.
+        const std::string_view given = o.form == "cosine" ? ", of a NoH that half holds" : "";
+        to.say(fmt::format("{} in half keeps {} {}{}{}.", o.name, keeps,
+                           *row->safe_from < 1e-5 ? std::string("for every alpha")
+                                                  : fmt::format("from {} on", from_text(*row)),
+                           given, evidence_text(*row)));
+      }
     }
 }
 

@@ -5,6 +5,7 @@
 #include <map>
 
 #include "brdf/catalogue/registry.h"
+#include "reports/finding/words.h"
 #include "reports/page/numbers.h"
 #include "reports/page/section.h"
 #include "reports/stability/stability.h"
@@ -71,8 +72,7 @@ Section clamp_question(const StabilityRows& all) {
             dense};
     for (const auto& r : widths)
       if (r.number == number)
-        t.add(form_cell(r.id), given(r.form),
-              r.safe_from ? significant(*r.safe_from, 2) : "nowhere",
+        t.add(form_cell(r.id), given(r.form), r.safe_from ? rounded_up(*r.safe_from) : "nowhere",
               error_cell(r.worst_rel, place(r)), error_cell(r.worst_from_usual),
               count_cell(r.nonfinite + r.overflow, r.nonfinite_at),
               r.finite_from ? significant(*r.finite_from, 2) : "–",
@@ -254,7 +254,7 @@ Section every_form(const StabilityRows& all) {
                 count_cell(r.negative), count_cell(r.overflow), count_cell(r.vanished),
                 count_cell(r.not_monotone), count_cell(r.irreciprocal),
                 r.decides.empty() ? "–"
-                : r.safe_from     ? r.decides + " " + significant(*r.safe_from, 2)
+                : r.safe_from     ? r.decides + " " + rounded_up(*r.safe_from)
                                   : "nowhere",
                 count_text(r.evaluations),
                 evidence_text(r.evidence) + (r.settled ? "" : ", not settled"));

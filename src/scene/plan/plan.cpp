@@ -186,6 +186,7 @@ class MaterialPlanner {
     const auto times = times_of(timed, reference_.points);
     const double ns = times.back().ns, ops = operations_of(everything_, reference_.points);
     for (std::size_t i = 0; i < effects_.size(); ++i) {
+      if (effects_[i].why == Why::structural) continue;  // what is absent is computed by no shader
       effects_[i].ns_saved = ns - times[i].ns;
       effects_[i].ops_saved = ops - operations_of(timed[i], reference_.points);
     }

@@ -322,6 +322,37 @@ TEST(EnergyReport, FindingsAreMadeFromTheFigures) {
   EXPECT_TRUE(said("Most does GGX without masking: 5 times as much at roughness 1, mu 0.1."));
 }
 
+TEST(EnergyReport, RanksCompensationsUnderASingleLightByWhatTheyLeaveWhereTheyPay) {
+  EnergyRows r;
+  const std::map<std::string_view, std::vector<double>> delta{
+      {"single", {7.4, 6.9, 29}}, {"kulla_conty", {13.6, 5.9, 2.9}}, {"turquin", {5.3, 5.8, 11.2}}};
+  const std::vector roughness{0.25, 0.45, 1.0};
+  for (const auto& [id, rows] : delta)
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      r.single_lights.push_back({id, "front light", 0.9, roughness[i], rows[i], 0, 0});
+  for (const auto& [id, rms] : {std::pair("kulla_conty", 0.0102), {"turquin", 0.0081}}) {
+    CompensationCost c{};
+    c.id = id;
+    c.rms = rms;
+    r.compensations.push_back(c);
+  }
+  const auto said = [&](std::string_view sentence) {
+    const auto all = findings(r).sentences;
+    return std::ranges::find(all, sentence) != all.end();
+  };
+  EXPECT_TRUE(
+      said("Under a single light, white metal of F0 = 0.9 with Kulla and Conty is nearer to "
+           "all bounces than with nothing from roughness 0.45 on."));
+  EXPECT_TRUE(said("There it leaves ΔE2000 5.9 at most, where one bounce leaves 29."))
+      << "not the 13.6 of a roughness where it is further off";
+  EXPECT_TRUE(said("There it leaves ΔE2000 11 at most, where one bounce leaves 29."));
+  EXPECT_TRUE(
+      said("Where they pay, Kulla and Conty leaves less at most. By albedos Turquin does: "
+           "these are light from all sides, and one light shows the lobe's shape."));
+  r.compensations[0].rms = 0.001;
+  EXPECT_TRUE(said("Where they pay, Kulla and Conty leaves less at most, as by albedos."));
+}
+
 TEST(EnergyReport, PicturesShowWhatWasMeasured) {
   auto r = of_forms({correlated, separable, none});
   r.materials = materials();

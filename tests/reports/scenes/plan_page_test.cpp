@@ -1,0 +1,93 @@
+#include "reports/scenes/plan_page.h"
+
+#include <algorithm>
+#include <string>
+
+#include "many_fits.h"
+#include "reports/finding/words.h"
+#include "reports/scenes/cases.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+const scene::Scene& plastic_scene() {
+  static const auto s = scenes::scene_of(scenes::material_of("red plastic"), "front light");
+  return s;
+}
+const scene::Plan& plan() {
+  static const auto made = [] {
+    scene::PlanOptions o;
+    o.cost = scene::Cost::operations;
+    o.samples = 1024;
+    o.fresh = 16'384;
+    return scene::plan_scene(plastic_scene(), o);
+  }();
+  return made;
+}
+std::size_t count(const std::string& text, std::string_view what) {
+  std::size_t n = 0;
+  for (auto at = text.find(what); at != text.npos; at = text.find(what, at + 1)) ++n;
+  return n;
+}
+
+TEST(PlanPage, SaysWhatWasFoundAndNotWhatWasAskedFor) {
+  GONIO_MANY_FITS();
+  const auto page = plan_page_html(plastic_scene(), plan());
+  const auto& m = plan().materials.at(0);
+  EXPECT_NE(page.find("the plan differs by at most ΔE2000 " + rounded_up(m.checked.upper) + ";"),
+            page.npos);
+  EXPECT_EQ(page.find("nowhere by more than"), page.npos) << "points are no proof";
+  EXPECT_EQ(count(page, "data:image/png"), 3U) << "everything on, as planned, the difference";
+}
+
+TEST(PlanPage, MarksThePlanAmongTheSetsThatNothingBeats) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  auto& m = p.materials.at(0);
+  ASSERT_GT(m.front.size(), 1U);
+  constexpr std::string_view none = "is none of them";
+  m.forms = m.front[0].forms;
+  EXPECT_EQ(plan_page_html(plastic_scene(), p).find(none), std::string::npos);
+  std::erase_if(m.front, [&](const auto& c) { return c.forms == m.forms; });
+  ASSERT_GT(m.front.size(), 1U);
+  EXPECT_NE(plan_page_html(plastic_scene(), p).find(none), std::string::npos);
+}
+
+TEST(PlanPage, SavesNothingByWhatAMaterialHasNot) {
+  GONIO_MANY_FITS();
+  std::size_t absent = 0;
+  for (const auto& e : plan().materials.at(0).effects)
+    if (e.why == scene::Why::structural) {
+      ++absent;
+      EXPECT_EQ(e.ns_saved, 0) << e.reason;
+      EXPECT_EQ(e.ops_saved, 0) << e.reason;
+    }
+  EXPECT_GT(absent, 3U);
+}
+
+TEST(PlanPage, NamesAMaterialThatKeepsTheToleranceInNoForm) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  auto& m = p.materials.at(0);
+  p.holds = m.holds = false;
+  m.checked.upper = 1.0398, m.reference_error = 0.9635;
+  const auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find("differs by at most ΔE2000 1.04;"), page.npos) << "1 would be the tolerance";
+  EXPECT_NE(page.find("keeps ΔE2000 1 for red plastic"), page.npos);
+  EXPECT_NE(page.find("the reference itself is known to 0.96"), page.npos);
+}
+
+TEST(PlanPage, BoundsNothingOfALobeThatNoWalkIsKnownOf) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  auto& m = p.materials.at(0);
+  m.bounded = false, m.reference = "kulla_conty", m.checked.quantile = 0.79;
+  const auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find(" by ΔE2000 0.79;"), page.npos);
+  EXPECT_NE(page.find("so that is no bound"), page.npos);
+}
+
+}  // namespace
+}  // namespace gonio
