@@ -74,10 +74,9 @@ StackSurvey look_at(const StackReader& stack, const FitMapCall& o) {
   progress.clear();
   const auto& other = found.arrangement;
   if (other.sure && !o.as_given)
-    throw bad_input(
-        stack.stack().path, "directions", "those of other images",
-        fmt::format("these ({}: then an rms {:.3g} times less is left; {}; or --as-given)",
-                    other.what, 1 / other.ratio, other.cure));
+    throw bad_input(stack.stack().path, "directions", "those of other images",
+                    fmt::format("these ({}: then {} {:.3g} times less is left; {}; or --as-given)",
+                                other.what, other.measure, 1 / other.ratio, other.cure));
   return found;
 }
 

@@ -54,6 +54,14 @@ Exit run(const StackCall& o) {
   const bool all_png = std::ranges::all_of(s.images, [&](const StackImage& image) {
     return is_png(InputFile(s.path_of(image.path)).peek(8));
   });
+  const std::pair<const char*, std::optional<double>> numbers[] = {
+      {"--white", o.white}, {"--saturation", o.saturation}, {"--floor", o.floor}};
+  for (const auto& [option, number] : numbers)
+    if (all_png && number && *number > 1)
+      throw wrong_usage(
+          fmt::format("{} {:g}: PNG files have numbers from 0 to 1 here; expected that of the file "
+                      "over 65535, {:.4g}",
+                      option, *number, *number / 65535));
   if (!s.saturation && all_png) s.saturation = 1;  // the largest number that a PNG has
   const Rectangle size = size_of_all(s);
   const std::string text = to_json(s);
@@ -81,9 +89,9 @@ void add_stack(CommandLine& line) {
       .required();
   c.option("--images", o->images, "Folder of the images (default: that of the list)");
   c.flag("--linear", o->linear, "The images are light, though PNG files do not say so (gAMA 1)");
-  c.option(
-       "--white", o->white,
-       "Number that a white diffuse tile facing the lamp has in the images: what gives f its scale")
+  c.option("--white", o->white,
+           "Number that a white diffuse tile facing the lamp has in the images, of PNG files from "
+           "0 to 1: what gives f its scale")
       .in(1e-9, 1e9);
   c.option("--white-reflectance", o->reflectance, "Reflectance of that tile")
       .in(0.01, 1.0)

@@ -134,12 +134,66 @@ OtherArrangement other_arrangement(const TexelSample& s, TexelOptions asked, Tex
     if (seen[k].texels * 2 < compared) seen[k] = {};
   });
   OtherArrangement best;
+  std::size_t best_at = 0;
   for (std::size_t k = 0; k < all.size(); ++k) {
     // The first of those that are as good.
     if (seen[k].lower < 0.8 || seen[k].ratio > 0.9 || seen[k].ratio > 0.98 * best.ratio) continue;
-    best = {all[k].what, all[k].cure, seen[k].ratio, seen[k].ratio <= 0.5 && seen[k].lower >= 0.9};
+    best = {all[k].what, all[k].cure, "an rms", seen[k].ratio,
+            seen[k].ratio <= 0.5 && seen[k].lower >= 0.9};
+    best_at = k;
   }
-  return best;
+  if (best.what.empty() || best.sure) return best;
+  // One that only helps is no cure.
+  TexelSample sample = s;
+  all[best_at].make(sample);
+  return shared_residuals(sample, fit_sample(sample, better), better) > 0 ? OtherArrangement{}
+                                                                          : best;
+}
+
+OtherArrangement arrangement_of_normals(const TexelSample& s, const TexelFit& refined) {
+  OtherArrangement found;
+  if (s.block != 4 || refined.normal.empty()) return found;
+  // Changes of the slopes P along x and Q along y, in each square of texels.
+  struct Changes {
+    double p_x, p_y, q_x, q_y;
+  };
+  std::vector<Changes> squares;
+  for (std::size_t t = 0; t < s.texels; t += s.block) {
+    const auto slope = [&](std::size_t axis, std::size_t k) {
+      return double{-refined.normal[axis * s.texels + t + k]} /
+             double{refined.normal[2 * s.texels + t + k]};
+    };
+    const auto along_x = [&](std::size_t a) {
+      return slope(a, 1) + slope(a, 3) - slope(a, 0) - slope(a, 2);
+    };
+    const auto along_y = [&](std::size_t a) {  // upwards
+      return slope(a, 0) + slope(a, 1) - slope(a, 2) - slope(a, 3);
+    };
+    const Changes c{along_x(0), along_y(0), along_x(1), along_y(1)};
+    if (std::isfinite(c.p_x + c.p_y + c.q_x + c.q_y)) squares.push_back(c);
+  }
+  const auto curls = [&](const std::array<int, 4>& to) {
+    std::vector<double> all;
+    for (const auto& c : squares)
+      all.push_back(std::abs(to[0] * c.p_y + to[1] * c.q_y - to[2] * c.p_x - to[3] * c.q_x));
+    return all;
+  };
+  const auto given = curls({1, 0, 0, 1});
+  constexpr std::size_t few_squares = 32;  // so that chance does not accuse
+  if (given.size() < few_squares) return found;
+  // One of each two that differ by half a turn.
+  for (const std::size_t k : {0, 2, 4}) {
+    const auto now = curls(turns[k].to);
+    std::size_t lower = 0;
+    for (std::size_t q = 0; q < now.size(); ++q) lower += now[q] < given[q];
+    const double ratio = median_of(now) / median_of(given);
+    if (!(ratio <= 0.5 && 5 * lower >= 4 * now.size() && ratio < found.ratio)) continue;
+    const auto &one = turns[k], &other = turns[k + 1];
+    found = {fmt::format("the light's azimuth is {}; or it is {}", one.what, other.what),
+             fmt::format("phi_i becomes {} or {}", one.azimuth, other.azimuth),
+             "a curl of the refined normals, which a surface's have not,", ratio, true};
+  }
+  return found;
 }
 
 }  // namespace gonio

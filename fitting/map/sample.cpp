@@ -129,10 +129,12 @@ std::vector<double> predicted(const TexelSample& s, const TexelFit& f, const Tex
       angles[i] = frame_angles(normals.empty() ? pair : within(pair, n));
     }
     const auto f_r = evaluate(model, angles);
-    for (std::size_t i = 0; i < s.images; ++i)
+    for (std::size_t i = 0; i < s.images; ++i) {
+      const double by = f.normal.empty() ? 1 : angles[i].nol / cosine_of(s, i, t);
       for (std::size_t c = 0; c < s.channels; ++c)
         if (angles[i].nol > 0 && angles[i].nov > 0)
-          all[(i * s.channels + c) * s.texels + t] = f_r[c][i];
+          all[(i * s.channels + c) * s.texels + t] = f_r[c][i] * by;
+    }
   }
   return all;
 }
@@ -160,6 +162,38 @@ double rms_of_all(const std::vector<double>& all) {
   double sum = 0;
   for (const double x : all) sum += x * x;
   return std::sqrt(sum / static_cast<double>(all.size()));  // NaN of none
+}
+
+double shared_residuals(const TexelSample& s, const TexelFit& f, const TexelOptions& o) {
+  const auto f_r = predicted(s, f, TexelTask(o, s.channels));
+  const auto left = residual_deviations(f), least = residual_floor(f);
+  // Where an image has no value of one of the two, it is left out of both.
+  const auto of_image = [&](std::size_t i, std::size_t t, std::vector<double>& all) {
+    const auto d = differences(s, i, t, f_r, o.metric);
+    all.resize(s.channels, unknown);
+    if (d.size() == s.channels) std::ranges::copy(d, all.begin());
+  };
+  std::vector<double> shared, a, b;
+  // Not of the same square: cameras and what registers images spread noise over neighbours.
+  for (std::size_t t = 0; t + s.block < s.texels; ++t) {
+    if (t / s.block % 2) continue;
+    const std::size_t next = t + s.block;
+    double product = 0, first = 0, second = 0;
+    for (std::size_t i = 0; i < s.images; ++i) {
+      a.clear(), b.clear();
+      of_image(i, t, a), of_image(i, next, b);
+      for (std::size_t c = 0; c < s.channels; ++c)
+        if (std::isfinite(a[c]) && std::isfinite(b[c]))
+          product += a[c] * b[c], first += a[c] * a[c], second += b[c] * b[c];
+    }
+    if (!(left[t] >= 0 && left[next] >= 0)) continue;
+    const bool is_resolved = left[t] > least[t] && left[next] > least[next];
+    shared.push_back(is_resolved && product != 0 ? product / std::sqrt(first * second) : 0);
+  }
+  constexpr double chance = 0.35;
+  if (2 * shared.size() < few_texels) return 0;
+  const double part = median_of(std::move(shared));
+  return part > chance ? part : 0;
 }
 
 std::vector<double> unseen_errors(const TexelSample& s, const TexelOptions& o) {

@@ -16,6 +16,8 @@ struct TexelSample {
   std::size_t texels = 0, images = 0, channels = 0;
   bool shared = true;
   bool of_light = false;  ///< values are times n·l, as a camera has them
+  /// Texels of a piece of the map: 4 are a square, from top left to bottom right; 1: they lie anywhere.
+  std::size_t block = 1;
   std::vector<float> values, light, view, normal;
 
   TexelSamples spans() const {
@@ -56,7 +58,8 @@ ResidualRatio compare_residuals(std::vector<double> now,
                                 std::vector<double> before,
                                 const std::vector<double>& least);
 
-/// f_r that a fit says, [image][channel][texel]; NaN where light or view is below the surface.
+/// f_r that a fit says, [image][channel][texel]; NaN where light or view is below the surface.  Where normals are refined it is what the light there
+/// would be divided by n·l of the normal as given, as the values are.
 std::vector<double> predicted(const TexelSample&, const TexelFit&, const TexelTask&);
 /// Differences between an image's light and what a fit says, or between their logarithms; nothing where either is none.
 std::vector<double> differences(const TexelSample&,
@@ -65,6 +68,9 @@ std::vector<double> differences(const TexelSample&,
                                 const std::vector<double>& f_r,
                                 Metric);
 double rms_of_all(const std::vector<double>&);
+/// Part of the residuals' squares that texels share with those of the next block, the median: near 1 where the model or an image is off, 0 where chance
+/// makes as much, nothing is left that a camera resolves, or too few texels tell.
+double shared_residuals(const TexelSample&, const TexelFit&, const TexelOptions&);
 /// rms of each texel's differences in images that its fit has not seen, a fourth of them at a time.
 std::vector<double> unseen_errors(const TexelSample&, const TexelOptions&);
 

@@ -6,10 +6,12 @@
 #include <numeric>
 
 #include "base/error.h"
+#include "fitting/map/images.h"
 #include "fitting/map/sample.h"
 #include "fitting/map/task.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <tbb/parallel_for.h>
 
 namespace gonio {
@@ -45,9 +47,11 @@ double spread(const std::vector<double>& all) {
   return median_of(std::move(off));
 }
 
-/// \param wrong  the model asked for is known not to fit: then one texel in four may be accused wrongly, and else one in 200
-TexelNoise noise_of(const TexelFit& f, bool wrong) {
+/// \param wrong   the model asked for is known not to fit: then one texel in four may be accused wrongly, and else one in 200
+/// \param shared  part of what is left that is no noise (shared_residuals); 0 of noise
+TexelNoise noise_of(const TexelFit& f, bool wrong, double shared) {
   TexelNoise n;
+  wrong = wrong || shared > 0;
   auto by_light = variances(f, true), same = variances(f, false);
   if (by_light.size() < few_texels) return n;
   n.follows_light = spread(by_light) <= spread(same);
@@ -57,9 +61,16 @@ TexelNoise noise_of(const TexelFit& f, bool wrong) {
   std::erase_if(least, [](double x) { return !(x > 0); });
   const double floor = n.follows_light ? 1e-3 : median_of(std::move(least));
   const std::size_t beyond = std::max<std::size_t>(all.size() / (wrong ? 4 : 200), 1);
+  // Three to five of their deviations above the median: of neighbours with common noise the
+  // sample's ends are seldom reached, and texels whose fits went astray are no noise.
+  const auto above = [&](double deviations) {
+    return median_of(all) * std::exp(deviations * 1.4826 * spread(all));
+  };
+  const double end = all[all.size() - beyond], noise = wrong
+                                                           ? std::min(end, above(5)) * (1 - shared)
+                                                           : std::clamp(end, above(3), above(5));
   n.dark = static_cast<float>(dark_of(f));
-  n.most =
-      static_cast<float>((wrong ? 1 : 1.05) * std::max(std::sqrt(all[all.size() - beyond]), floor));
+  n.most = static_cast<float>((wrong ? 1 : 1.05) * std::max(std::sqrt(noise), floor));
   return n;
 }
 
@@ -84,16 +95,22 @@ TexelOptions asked_of(std::string_view model, const TexelOptions& asked) {
   return o;
 }
 
-/// The model that leaves least in images that its fits have not seen, and how much of what the one asked for leaves there.
-std::pair<std::string, double> best_model(const TexelSample& s,
-                                          const TexelOptions& o,
-                                          const TexelFit& fit_as_asked) {
+/// The options whose fits leave least in images that they have not seen, and how much of what those asked for leave there: another model, or normals that are
+/// sought.
+std::pair<TexelOptions, double> best_options(const TexelSample& s,
+                                             const TexelOptions& o,
+                                             const TexelFit& fit_as_asked) {
   const auto given = unseen_errors(s, o), left = residual_deviations(fit_as_asked),
              least_rms = residual_floor(fit_as_asked);
-  std::array<ResidualRatio, others.size()> seen;
-  tbb::parallel_for(std::size_t{0}, others.size(), [&](std::size_t k) {
-    const TexelOptions other = asked_of(others[k], o);
-    if (others[k] == o.model) return;
+  std::vector<TexelOptions> all;
+  for (const auto model : others)
+    if (model != o.model) all.push_back(asked_of(model, o));
+  all.push_back(o);
+  all.back().refine_normals = true;
+  if (o.refine_normals) all.pop_back();
+  std::vector<ResidualRatio> seen(all.size());
+  tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
+    const TexelOptions& other = all[k];
     try {
       check(other, s.channels);
     } catch (const Error&) {  // as an anisotropic one whose normals are sought
@@ -107,8 +124,8 @@ std::pair<std::string, double> best_model(const TexelSample& s,
     seen[k] = compare_residuals(unseen_errors(s, other), given, least_rms);
   });
   const auto least = std::ranges::min_element(seen, {}, &ResidualRatio::ratio);
-  if (least->ratio > 0.95 || least->lower < 0.6) return {o.model, 1};
-  return {std::string(others[static_cast<std::size_t>(least - seen.begin())]), least->ratio};
+  if (least->ratio > 0.95 || least->lower < 0.6) return {o, 1};
+  return {all[static_cast<std::size_t>(least - seen.begin())], least->ratio};
 }
 
 /// How much less is left of texels without an image.
@@ -119,23 +136,6 @@ ResidualRatio without(TexelSample less,
   leave_out(less, image);
   return compare_residuals(residual_deviations(fit_sample(less, o)), residual_deviations(with),
                            residual_floor(with));
-}
-
-/// The images whose logarithms differ most from what a fit says, 16 at most.
-std::vector<std::size_t> loudest(const TexelSample& s,
-                                 std::vector<std::size_t> images,
-                                 const std::vector<double>& f_r) {
-  std::vector<double> loud(s.images);
-  for (const std::size_t i : images) {
-    std::vector<double> off;
-    for (std::size_t t = 0; t < s.texels; ++t)
-      for (const double d : differences(s, i, t, f_r, Metric::log)) off.push_back(d);
-    loud[i] = off.empty() ? 0 : rms_of_all(off);
-  }
-  std::ranges::stable_sort(images, std::ranges::greater{}, [&](std::size_t i) { return loud[i]; });
-  constexpr std::size_t most = 16;
-  images.resize(std::min(images.size(), most));
-  return images;
 }
 
 /// An image is odd where the ratios of the others agree far better without it, and nearly all of its values are off to one side or its
@@ -187,6 +187,37 @@ std::vector<OddImage> odd_images(TexelSample s, TexelOptions by_ratios) {
   return odd;
 }
 
+/// Why no model explains the images, in one way: the one that leaves least.  Normals that are sought may be what hides it.
+void blame_images(const TexelSample& s, const TexelOptions& o, StackSurvey& found) {
+  for (const bool sought : {false, true}) {
+    TexelOptions as = o;
+    as.refine_normals = as.refine_normals || sought;
+    try {
+      check(as, s.channels);
+    } catch (const Error&) {
+      continue;
+    }
+    const auto exposure = other_exposure(s, as);
+    if (exposure && (!found.exposure || exposure->ratio < found.exposure->ratio))
+      found.exposure = exposure;
+    const auto exchanged = exchanged_images(s, as);
+    if (exchanged && (!found.exchanged || exchanged->ratio < found.exchanged->ratio))
+      found.exchanged = exchanged;
+  }
+  if (found.exposure && found.exchanged) {
+    if (found.exposure->ratio < found.exchanged->ratio)
+      found.exchanged.reset();
+    else
+      found.exposure.reset();
+  }
+  if (found.exposure && found.exposure->images.size() == 1 && !found.odd.empty())
+    found.exposure.reset();  // it is named already
+  if (found.exposure || found.exchanged) {
+    found.odd.clear();
+    found.better.clear();
+  }
+}
+
 StackSurvey survey(const TexelSample& s, const TexelOptions& o) {
   StackSurvey found;
   const TexelFit given = fit_sample(s, o);
@@ -194,16 +225,21 @@ StackSurvey survey(const TexelSample& s, const TexelOptions& o) {
   const auto taken = std::accumulate(given.count.begin(), given.count.end(), 0.0F);
   found.left_out = 1 - double{taken} / static_cast<double>(s.values.size());
   if (found.texels < few_texels) return found;
-  const auto [by, ratio] = best_model(s, o, given);
-  found.arrangement = other_arrangement(s, o, asked_of(by, o));
+  const auto [best, ratio] = best_options(s, o, given);
+  found.arrangement = other_arrangement(s, o, best);
   if (found.arrangement.sure) return found;  // all else would be judged by wrong directions
-  if (by != o.model) {
-    found.better = by;
+  if (o.refine_normals) found.arrangement = arrangement_of_normals(s, given);
+  if (found.arrangement.sure) return found;
+  const bool is_other = ratio < 1;
+  const TexelFit of_best = is_other ? fit_sample(s, best) : given;
+  found.shared = shared_residuals(s, of_best, best);
+  found.noise = noise_of(of_best, is_other, found.shared);
+  found.odd = odd_images(s, best);
+  if (is_other) {
+    found.better = best.model == o.model ? "--refine-normals" : best.model;
     found.better_ratio = ratio;
   }
-  const TexelOptions of_best = asked_of(by, o);
-  found.noise = noise_of(by == o.model ? given : fit_sample(s, of_best), by != o.model);
-  found.odd = odd_images(s, of_best);
+  if (found.shared > 0) blame_images(s, o, found);
   return found;
 }
 
@@ -213,29 +249,35 @@ StackSurvey survey(const TexelSamples& s, const TexelOptions& o) {
   const auto copy = [](std::span<const float> from) {
     return std::vector<float>(from.begin(), from.end());
   };
-  return survey(TexelSample{s.texels, s.images, s.channels, s.shared, false, copy(s.values),
+  return survey(TexelSample{s.texels, s.images, s.channels, s.shared, false, 1, copy(s.values),
                             copy(s.light), copy(s.view), copy(s.normal)},
                 o);
 }
 
 StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
   // Fewer texels of many images, and of wide ones no more than the middle: neither time nor memory
-  // grows with them.
+  // grows with them.  They lie in squares of four, whose normals say whether they belong to a
+  // surface.
   constexpr std::size_t least_rows = 4, most_of_row = 64, most_numbers = 1 << 24;
   const std::size_t images = stack.stack().images.size(),
-                    of_row = std::clamp(std::size_t{1 << 14} / images, std::size_t{8}, most_of_row),
-                    columns = std::clamp(most_numbers / (images * stack.channels().size()),
+                    texels = least_rows *
+                             std::clamp(std::size_t{1 << 14} / images, std::size_t{8}, most_of_row),
+                    columns = std::clamp(most_numbers / (2 * images * stack.channels().size()),
                                          std::size_t{1}, stack.width()),
-                    begin = (stack.width() - columns) / 2, width = std::min(of_row, columns),
-                    height =
-                        std::min(std::max(least_rows, of_row * least_rows / width), stack.height());
+                    begin = (stack.width() - columns) / 2, wide = std::min(columns, std::size_t{2}),
+                    high = std::min(stack.height(), std::size_t{2}), block = wide * high,
+                    across = std::min(std::max<std::size_t>(texels / least_rows / block, 1),
+                                      columns / wide),
+                    down = std::min(std::max(least_rows, texels / (across * block)),
+                                    stack.height() / high);
   TexelSample s;
-  s.texels = height * width;
+  s.texels = down * across * block;
+  s.block = block;
   s.shared = stack.shared();
   StackPart part;
-  for (std::size_t r = 0; r < height; ++r) {
-    const std::size_t y = (2 * r + 1) * stack.height() / (2 * height);
-    stack.read({begin, y, columns, 1}, part);
+  for (std::size_t r = 0; r < down; ++r) {
+    const std::size_t y = (2 * r + 1) * stack.height() / (2 * down) - high / 2;
+    stack.read({begin, y, columns, high}, part);
     if (r == 0) {
       s.images = part.images;
       s.channels = part.channels;
@@ -245,10 +287,11 @@ StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
       s.view.resize(directions);
       if (stack.has_normals()) s.normal.resize(3 * s.texels);
     }
-    for (std::size_t k = 0; k < width; ++k) {
-      const std::size_t x = (2 * k + 1) * columns / (2 * width), to = r * width + k;
-      const auto piece = part.piece(x / StackPart::piece_texels);
-      const std::size_t from = x - piece.first;
+    for (std::size_t k = 0; k < across * block; ++k) {
+      const std::size_t x = (2 * (k / block) + 1) * columns / (2 * across) - wide / 2 + k % wide,
+                        at = k % block / wide * columns + x, to = r * across * block + k;
+      const auto piece = part.piece(at / StackPart::piece_texels);
+      const std::size_t from = at - piece.first;
       const auto take = [&](std::span<const float> in, std::vector<float>& out) {
         for (std::size_t row = 0; (row + 1) * piece.texels <= in.size(); ++row)
           out[row * s.texels + to] = in[row * piece.texels + from];
@@ -291,10 +334,14 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
   std::vector<std::string> lines;
   const auto times = [](double ratio) { return fmt::format("{:.3g}", 1 / ratio); };
   if (const auto& a = s.arrangement; !a.what.empty())
+    lines.push_back(fmt::format("it may be that {}: so read, {} {} times less is left (then {})",
+                                a.what, a.measure, times(a.ratio), a.cure));
+  if (s.better.starts_with("--"))
     lines.push_back(
-        fmt::format("it may be that {}: so read, the images leave an rms {} times less (then {})",
-                    a.what, times(a.ratio), a.cure));
-  if (!s.better.empty())
+        fmt::format("the surface is not flat, or its normals are others: with {} the images that "
+                    "fits have not seen leave an rms {} times less",
+                    s.better, times(s.better_ratio)));
+  else if (!s.better.empty())
     lines.push_back(fmt::format(
         "{} does not fit: in images that fits have not seen, {} leaves an rms {} times less", model,
         s.better, times(s.better_ratio)));
@@ -304,6 +351,26 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
         "without it: it is {:.2g} times as bright as they "
         "predict. Its lamp, direction or place is another, or the model does not fit there",
         stack.images[odd.image].path, times(odd.ratio), odd.brightness));
+  if (const auto& e = s.exposure) {
+    std::vector<std::string> names;
+    for (const std::size_t i : e->images) names.push_back(stack.images[i].path);
+    lines.push_back(
+        fmt::format("{} of the {} images {} {:.3g} times as bright as the others predict: {}. So "
+                    "scaled, the images leave an rms {} times less (then the scale there "
+                    "becomes {:.3g} times what it is, unless the others are wrong)",
+                    names.size(), stack.images.size(), names.size() > 1 ? "are all" : "is",
+                    e->brightness, fmt::join(names, ", "), times(e->ratio), 1 / e->brightness));
+  }
+  if (const auto& e = s.exchanged)
+    lines.push_back(fmt::format(
+        "{} and {} stand for each other: exchanged, the images leave an rms {} times less",
+        stack.images[e->first].path, stack.images[e->second].path, times(e->ratio)));
+  if (s.shared > 0 && s.odd.empty() && !s.exposure && !s.exchanged)
+    lines.push_back(fmt::format(
+        "{:.0f} % of what {} leaves is alike in neighbouring texels, so it is no noise. Either the "
+        "model is wrong, or the images' exposures, lamps or order are, "
+        "or they are not linear",
+        100 * s.shared, s.better.empty() ? model : s.better));
   return lines;
 }
 

@@ -4,11 +4,13 @@
 /// large is the noise?
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "fitting/map/arrangement.h"
+#include "fitting/map/images.h"
 #include "fitting/map/texels.h"
 #include "stack/stack_reader.h"
 
@@ -27,10 +29,15 @@ struct StackSurvey {
   double left_out = 0;     ///< part of their values: no number, below 0, clipped or dark
   OtherArrangement arrangement;
   TexelNoise noise;
-  std::string better;  ///< the model that leaves less than the one asked for; empty: none
+  std::string better;  ///< the model that leaves less than the one asked for, or
+                       ///< "--refine-normals"; empty: none
   double better_ratio =
       1;  ///< median over texels of the rms that it leaves, over that of the one asked for
+  /// Part of what the best fit leaves that neighbouring texels share: the model, or the images, are off by so much.  0: it may be noise.
+  double shared = 0;
   std::vector<OddImage> odd;
+  std::optional<OtherExposure> exposure;  ///< looked for where something is shared
+  std::optional<Exchanged> exchanged;
 };
 
 /// Fits texels under other arrangements, by other models, judged in images that their fits have not seen, and without each image.

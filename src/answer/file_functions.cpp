@@ -1,5 +1,8 @@
 #include "answer/file_functions.h"
 
+#include <algorithm>
+#include <set>
+
 #include "base/error.h"
 #include "base/json/describe.h"
 #include "base/text.h"
@@ -64,6 +67,49 @@ Json json_of(const FileFunction& of) {
   return j;
 }
 
+/// What a person says of a file's functions, by what is used of it.
+struct Said {
+  const foreign::Reading& all;
+  std::set<std::string> used{};
+
+  /// The part that goes with a function.
+  foreign::Reading of(const FileFunction& f) {
+    const auto has = [&](const std::string& name) {
+      const bool is_there = std::ranges::find(f.entry.arguments, name) != f.entry.arguments.end() ||
+                            (f.function && std::ranges::find(f.function->parameters, name,
+                                                             &foreign::FunctionParameter::name) !=
+                                               f.function->parameters.end());
+      if (is_there) used.insert(name);
+      return is_there;
+    };
+    foreign::Reading part;
+    for (const auto& a : all.arguments)
+      if (has(a.first)) part.arguments.insert(a);
+    for (const auto& v : all.values)
+      if (has(v.first)) part.values.insert(v);
+    if (!all.includes || !f.function) return part;
+    const bool of_masking = *all.includes == "g" || *all.includes == "v";
+    if (f.function->stands == (of_masking ? foreign::Stands::masking : foreign::Stands::lobe)) {
+      part.includes = all.includes;
+      used.insert(includes_option);
+    }
+    return part;
+  }
+  void expect_all_used(const std::string& file) const {
+    const auto expect = [&](const std::string& name) {
+      if (!used.contains(name))
+        throw wrong_usage(fmt::format("{}: no function has {}", file,
+                                      name == includes_option
+                                          ? "a value that may include " + *all.includes
+                                          : "an argument or a parameter '" + name + "'"));
+    };
+    for (const auto& [name, stands_for] : all.arguments) expect(name);
+    for (const auto& [name, value] : all.values) expect(name);
+    if (all.includes) expect(includes_option);
+  }
+  static constexpr const char* includes_option = "--includes";
+};
+
 }  // namespace
 
 void add_own_files(Json& document, const std::string& spec) {
@@ -92,18 +138,39 @@ FileFunctions file_functions(const std::string& token) {
   if (!name.function.empty())
     std::erase_if(entries, [&](const auto& e) { return e.function != name.function; });
   if (entries.empty()) foreign::read_function(name);  // says what is wrong
+  Said said{name.reading};
   for (auto& e : entries) {
     FileFunction f{std::move(e), {}, {}};
-    if (f.entry.refused.empty() || !name.function.empty()) {
-      auto one = name;
-      if (name.function.empty()) one.reading = {};
-      one.function = f.entry.function;
-      f.function = foreign::read_function(one);
+    foreign::Name one{name.file, f.entry.function};
+    const auto read = [&] {
+      try {
+        f.function = foreign::read_function(one);
+        f.entry.refused.clear();
+      } catch (const Error& error) {
+        if (!name.function.empty()) throw;
+        f.function.reset();
+        f.entry.refused = error.what();
+      }
+    };
+    if (!name.function.empty()) {
+      one.reading = name.reading;
+      read();
+    } else {
+      // What is said may be why it can be read, and what its value is decides what that may
+      // include.
+      for (int turn = 0; turn < 3; ++turn) {
+        if (turn > 0 && one.reading == said.of(f)) break;
+        if (turn > 0) one.reading = said.of(f);
+        read();
+      }
+    }
+    if (f.function) {
       for (const auto& p : f.function->programs) f.operations += operations_of(p);
       all.sha256 = f.function->sha256;
     }
     all.functions.push_back(std::move(f));
   }
+  if (name.function.empty()) said.expect_all_used(name.file);
   return all;
 }
 

@@ -81,6 +81,7 @@ struct Entry {
   std::string function;
   int line = 0;
   std::string refused{};
+  std::vector<std::string> arguments{};  ///< their names
 };
 
 /// Files are compiled once in a run.  \throws Error  bad input with the line; wrong usage of a parameter without bounds

@@ -84,7 +84,10 @@ Stack stack_of_lamps(const std::string& list, const std::string& images, const s
     name = name.substr(name.find_last_of("/\\") + 1);  // of the npos that it may be: from 0
     if (name.empty()) throw bad_input(list, place, whole, "a name before the numbers");
     const fs::path file = image_in(folder, name);
-    expect_there(file.string());
+    if (std::error_code none; !fs::exists(file, none))
+      throw bad_input(list, place,
+                      fmt::format("{}, which is not there", printable(file.string(), 100)),
+                      "an image of that name that ends in .exr, .npy or .png");
     const fs::path relative = fs::proximate(file, beside.empty() ? fs::path(".") : beside);
     if (relative.is_absolute() || *relative.begin() == "..")
       throw bad_input(list, place, printable(file.string(), 100),

@@ -68,7 +68,12 @@ TEST(StackCommand, MakesAStackOfPhotographsAndTheListOfTheirLamps) {
   expect_one_line(gonio(f, "stack s/dome.lp --white-reflectance 0.9 -o s/x.json"), 2, "--white");
   expect_one_line(gonio(f, "stack s/dome.lp --saturation 1 --floor 2 -o s/x.json"), 2,
                   "--saturation");
+  expect_one_line(gonio(f, "stack s/dome.lp --images . -o s/x.json"), 3, ".exr, .npy or .png");
   EXPECT_FALSE(fs::exists(f / "s/x.json"));
+  // Of PNG files a number of the file itself is 65535 times too large.
+  f.write("s/photo.png", "\x89PNG\r\n\x1a\n");
+  f.write("s/photo.lp", "1\nphoto.jpg 0 0 1\n");
+  expect_one_line(gonio(f, "stack s/photo.lp --white 26214 -o s/x.json"), 2, "over 65535, 0.4");
 }
 
 /// The stack with the azimuths of all lights negated.

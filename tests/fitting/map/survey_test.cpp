@@ -55,9 +55,37 @@ TEST(Survey, SaysNothingOfAStackThatIsAsItSays) {
         SCOPED_TRACE(testing::Message() << seed << " " << static_cast<int>(noise) << " " << images);
         EXPECT_EQ(found.arrangement.what, "") << found.arrangement.ratio;
         EXPECT_EQ(found.better, "") << found.better_ratio;
+        EXPECT_EQ(found.shared, 0);
         EXPECT_TRUE(found.odd.empty()) << found.odd[0].image << " " << found.odd[0].ratio;
         EXPECT_FALSE(std::isnan(found.noise.most));
       }
+}
+
+TEST(Survey, SaysNothingOfRightStacksOfAnyModelNoiseAndNumberOfImages) {
+  int looked = 0, accused = 0;
+  for (const char* model :
+       {"lambert+ggx/smith_ggx.correlated/schlick", "lambert+gtr/smith_ggx.correlated/schlick",
+        "oren_nayar+ggx/smith_ggx.correlated/schlick",
+        "lambert+beckmann/smith_beckmann.correlated/schlick",
+        "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick", "lambert", "eon"})
+    for (const auto noise : {Loud::none, Loud::relative, Loud::of_light})
+      for (const std::size_t images : {6, 10, 24})
+        for (unsigned seed = 1; seed <= (std::getenv("GONIO_LONG") ? seeds : 1); ++seed) {
+          const auto s = made_up(seed, noise, images, model);
+          TexelOptions o;
+          o.model = model;
+          const auto found = survey(s.samples(), o);
+          ++looked;
+          const bool is_accused = found.shared > 0 || !found.odd.empty() || !found.better.empty() ||
+                                  !found.arrangement.what.empty();
+          accused += is_accused;
+          if (is_accused)
+            std::cout << model << " noise " << static_cast<int>(noise) << " images " << images
+                      << " seed " << seed << ": shared " << found.shared << " odd "
+                      << found.odd.size() << " better " << found.better << " " << found.better_ratio
+                      << " arr " << found.arrangement.what << "\n";
+        }
+  EXPECT_LE(100 * accused, looked) << accused;
 }
 
 TEST(Survey, BlamesTheModelAndNotTheDirectionsForAMatteSurface) {
@@ -69,20 +97,26 @@ TEST(Survey, BlamesTheModelAndNotTheDirectionsForAMatteSurface) {
     }
 }
 
+/// Photographs from above, of lamps at so many heights.
+gonio::Stack dome(
+    const Folder& f, int step_deg, int heights, double noise, const std::string& normals = "") {
+  StackSynthOptions o;
+  o.noise = noise;
+  o.values = StackValues::f_r_cosine;
+  if (!normals.empty()) o.normals = normals;
+  o.directions = DirectionList{};
+  for (int k = 0; k < 24; ++k) {
+    o.directions->theta_i_deg.push_back(10 + step_deg * (k % heights));
+    o.directions->phi_i_deg.push_back(67 * k % 360);
+    o.directions->theta_o_deg.push_back(0);
+    o.directions->phi_o_deg.push_back(0);
+  }
+  return read_stack(known_stack(f, "s", o));
+}
+
 TEST(Survey, SaysNothingOfADomeOfFewHeights) {
   const Folder f;
-  StackSynthOptions o;
-  o.noise = 0.02;
-  o.values = StackValues::f_r_cosine;
-  DirectionList dome;
-  for (int k = 0; k < 24; ++k) {
-    dome.theta_i_deg.push_back(10 + 20 * (k % 4));
-    dome.phi_i_deg.push_back(67 * k % 360);
-    dome.theta_o_deg.push_back(0);
-    dome.phi_o_deg.push_back(0);
-  }
-  o.directions = dome;
-  const auto found = survey(StackReader(read_stack(known_stack(f, "s", o))), {});
+  const auto found = survey(StackReader(dome(f, 20, 4, 0.02)), {});
   EXPECT_EQ(found.arrangement.what, "") << found.arrangement.ratio;
   EXPECT_EQ(found.better, "") << found.better_ratio;
   EXPECT_TRUE(found.odd.empty());
@@ -216,6 +250,136 @@ TEST(Survey, OfFewTexelsOrImagesKnowsNothing) {
   std::fill(s.values.begin(), s.values.end(), std::nanf(""));
   EXPECT_EQ(look(s).texels, 0U);
   EXPECT_TRUE(std::isnan(look(made_up(1, Loud::none, 2)).noise.most));
+}
+
+/// Photographs of waves, given without their normals.
+gonio::Stack waves(const Folder& f) {
+  Image normals;
+  normals.width = map_width;
+  normals.height = map_height;
+  normals.channels = {"X", "Y", "Z"};
+  normals.planes.resize(3);
+  for (std::size_t t = 0; t < map_width * map_height; ++t) {
+    const auto u = 0.3F * static_cast<float>(t % map_width),
+               v = -0.2F * static_cast<float>(t / map_width);
+    const float p = 0.2F * std::cos(u) * std::cos(v), q = -0.2F * std::sin(u) * std::sin(v) * 0.7F,
+                z = 1 / std::sqrt(1 + p * p + q * q);
+    normals.planes[0].push_back(-p * z);
+    normals.planes[1].push_back(-q * z);
+    normals.planes[2].push_back(z);
+  }
+  write_exr(f / "n.exr", normals);
+  auto stack = dome(f, 12, 5, 0.01, f / "n.exr");
+  stack.normals.reset();
+  return stack;
+}
+
+TEST(Survey, AsksForNormalsWhereTheSurfaceIsNotFlat) {
+  const Folder f;
+  const auto stack = waves(f);
+  const auto found = survey(StackReader(stack), {});
+  EXPECT_EQ(found.better, "--refine-normals");
+  EXPECT_EQ(found.shared, 0);
+  const auto lines = warnings_of(found, stack, "m");
+  ASSERT_EQ(lines.size(), 1U);
+  EXPECT_NE(lines[0].find("--refine-normals"), lines[0].npos) << lines[0];
+}
+
+TEST(Survey, SaysThatRefinedNormalsBelongToNoSurface) {
+  const Folder f;
+  auto stack = waves(f);
+  TexelOptions o;
+  o.refine_normals = true;
+  const auto right = survey(StackReader(stack), o);
+  EXPECT_EQ(right.arrangement.what, "");
+  EXPECT_TRUE(warnings_of(right, stack, "m").empty());
+  for (auto& image : stack.images) {
+    auto& light = std::get<SideAngles<Side::light>>(image.light);
+    light.phi_deg = -light.phi_deg;
+  }
+  const auto negated = survey(StackReader(stack), o).arrangement;
+  EXPECT_TRUE(negated.sure);
+  EXPECT_NE(negated.what.find("negated"), negated.what.npos) << negated.what;
+  EXPECT_NE(negated.measure.find("curl"), negated.measure.npos);
+  for (auto& image : stack.images) {
+    auto& light = std::get<SideAngles<Side::light>>(image.light);
+    light.phi_deg = std::remainder(-light.phi_deg + 90, 360);
+  }
+  const auto turned = survey(StackReader(stack), o).arrangement;
+  EXPECT_NE(turned.what.find("quarter turn"), turned.what.npos) << turned.what;
+}
+
+TEST(Survey, NamesAllImagesThatWereExposedOtherwise) {
+  const Folder f;
+  const auto right = dome(f, 9, 7, 0.01);
+  for (const std::size_t every : {6, 2}) {
+    auto stack = right;
+    for (std::size_t i = 1; i < 24; i += every) stack.images[i].scale *= 0.5;
+    const auto found = survey(StackReader(stack), {});
+    SCOPED_TRACE(every);
+    EXPECT_GT(found.shared, 0.5);
+    ASSERT_TRUE(found.exposure);
+    EXPECT_EQ(found.exposure->images.size(), 24 / every);
+    EXPECT_EQ(warnings_of(found, stack, "m").size(), 1U);
+    if (every == 2) continue;  // either half may be the wrong one
+    EXPECT_NEAR(found.exposure->brightness, 0.5, 0.03);
+    for (const std::size_t i : found.exposure->images) EXPECT_EQ(i % every, 1U);
+  }
+}
+
+TEST(Survey, NamesTwoImagesThatStandForEachOther) {
+  const Folder f;
+  const auto right = dome(f, 9, 7, 0.01);
+  for (const std::size_t other : {4, 8, 15}) {
+    auto stack = right;
+    std::swap(stack.images[3].path, stack.images[other].path);
+    const auto found = survey(StackReader(stack), {});
+    ASSERT_TRUE(found.exchanged) << other;
+    EXPECT_EQ(found.exchanged->first, 3U) << other;
+    EXPECT_EQ(found.exchanged->second, other);
+    EXPECT_EQ(found.better, "") << other;
+    EXPECT_EQ(found.arrangement.what, "") << other;
+  }
+}
+
+TEST(Survey, TakesWhatNeighboursShareForNoNoise) {
+  const Folder f;
+  auto stack = dome(f, 9, 7, 0.01);
+  std::mt19937 random(1);
+  std::uniform_real_distribution<double> uniform(0.6, 1.6);
+  for (auto& image : stack.images) image.scale *= uniform(random);
+  const auto found = survey(StackReader(stack), {});
+  EXPECT_GT(found.shared, 0.5);
+  EXPECT_FALSE(found.exposure);
+  const auto lines = warnings_of(found, stack, "m");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("no noise"), lines.back().npos) << lines.back();
+  const StackReader reader(stack);
+  StackPart part;
+  reader.read({0, 0, map_width, map_height}, part);
+  const auto p = part.piece(0);
+  const auto misfit = misfit_of(
+      fit_texels({p.texels, part.images, part.channels, p.values, true, p.light, p.view, {}}, {}),
+      found.noise);
+  EXPECT_GE(std::ranges::count_if(misfit, [](float m) { return m > 1; }),
+            9 * std::ssize(misfit) / 10);
+}
+
+TEST(Survey, NamesNoOrderOfTheImagesThatOnlyHelps) {
+  const Folder f;
+  const auto right = dome(f, 9, 7, 0.01);
+  std::mt19937 random(3);
+  for (int k = 0; k < 2; ++k) {
+    auto stack = right;
+    for (std::size_t i = stack.images.size(); i-- > 1;)
+      std::swap(stack.images[i].path,
+                stack.images[std::uniform_int_distribution<std::size_t>(0, i)(random)].path);
+    const auto found = survey(StackReader(stack), {});
+    EXPECT_EQ(found.arrangement.what, "") << k;
+    EXPECT_FALSE(found.exposure) << k;
+    EXPECT_FALSE(found.exchanged) << k;
+    EXPECT_GT(found.shared, 0.5) << k;
+  }
 }
 
 TEST(Survey, OfAStackOfFilesIsOfRowsAllOverItAlsoOfLightAndNormals) {
