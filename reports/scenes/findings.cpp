@@ -204,6 +204,13 @@ void verified(Findings& to, const ScenesRows& r) {
   else
     to.say(fmt::format("On fresh points {} plans do not hold: {}.",
                        of_all(broken.size(), r.rows.size()), scenes_text(broken)));
+  if (broken.empty()) return;
+  const auto unknown = std::ranges::max(broken, {}, &SceneRow::reference_error)->reference_error;
+  if (unknown > 0.5 * r.tolerance.limit)
+    to.say(
+        fmt::format("The reference itself is known to ΔE2000 {:.2g} there, which counts in what "
+                    "a plan differs by.",
+                    unknown));
 }
 
 /// Materials of an asset that were not planned.

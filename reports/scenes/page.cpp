@@ -25,6 +25,8 @@ inline constexpr auto description<SceneRow> = FieldList{
           "quantile of the differences on the planner's fresh points"},
     Field{"error_upper", &SceneRow::error_upper, "its upper confidence bound"},
     Field{"worst", &SceneRow::worst, "greatest of them"},
+    Field{"reference_error", &SceneRow::reference_error,
+          "what the reference may be off by itself, at the quantile; it is in all three"},
     Field{"exceeding", &SceneRow::exceeding, "points of the verification beyond the limit"},
     Field{"samples", &SceneRow::samples, "points of the verification"},
     Field{"upper_bound", &SceneRow::upper_bound, "confidence bound of the share beyond the limit"},

@@ -178,7 +178,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
   const auto& c = m.checked;
   Section s{m.name,
             "Each effect dropped by itself, all others exact. Errors do not add, so the plan's set "
-            "is checked as a whole. What dropping saves is measured on all effects in double, "
+            "is checked as a whole. Savings are measured on all effects in double, "
             "with Kulla and Conty's lobe between facets.",
             {t}};
   if (!m.holds)
@@ -217,11 +217,11 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
         Subtitle{fmt::format("{} sets of which none is faster and errs less", m.front.size())});
     s.parts.emplace_back(front);
     if (!has_plan && m.holds)
-      s.parts.emplace_back(
-          Prose{fmt::format("The plan, at {} ns, is none of them: sets whose times differ by less "
-                            "than their spread count as equally fast, and fewer effects decide.",
-                            significant(m.ns)),
-                "small"});
+      s.parts.emplace_back(Prose{
+          fmt::format("The plan, at {} ns, is none of them: among sets that cost as much, within "
+                      "the spread, it keeps the fewest effects.",
+                      significant(m.ns)),
+          "small"});
   }
   return s;
 }

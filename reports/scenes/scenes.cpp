@@ -143,6 +143,7 @@ class SceneMeasurement {
     r.error_quantile = plan_.checked.quantile;
     r.error_upper = plan_.checked.upper;
     r.worst = plan_.checked.worst;
+    r.reference_error = plan_.reference_error;
     PlannedForms planned;
     planned.by_material = {plan_.forms};
     const auto verified = verify(scene_, planned, 1, options_.verified).materials.at(0);

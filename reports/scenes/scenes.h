@@ -42,8 +42,9 @@ struct SceneRow {
   /// the material has; the plan in float.
   double ns = 0, ns_exact = 0, ns_exact_float = 0, ns_present_float = 0, ns_float = 0;
   double error_quantile = 0, error_upper = 0, worst = 0;  ///< on the planner's own fresh points
-  std::uint64_t exceeding = 0, samples = 0;               ///< of the verification
-  double upper_bound = 1;                                 ///< of the share that exceeds
+  double reference_error = 0;  ///< what the reference may be off by itself, at the quantile
+  std::uint64_t exceeding = 0, samples = 0;  ///< of the verification
+  double upper_bound = 1;                    ///< of the share that exceeds
   bool holds = false;
   bool needs_table = false;  ///< it keeps light between facets as a table, which no shader has
 };

@@ -343,6 +343,11 @@ TEST(ScenesFindings, SayWhichPlansDoNotHold) {
       says(findings(r),
            "On fresh points 2 of 3 plans do not hold: chalk under front light and under rim "
            "light."));
+  const std::string why =
+      "The reference itself is known to ΔE2000 0.96 there, which counts in what a plan differs by.";
+  EXPECT_FALSE(says(findings(r), why));
+  r.rows[1].reference_error = 0.9635;
+  EXPECT_TRUE(says(findings(r), why));
 }
 
 TEST(ScenesFindings, SayAtWhichAnglesAnEffectIsSeen) {
