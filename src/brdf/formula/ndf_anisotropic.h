@@ -76,7 +76,7 @@ struct BeckmannAniso {
 ///
 /// `/ NoH*NoH` divides by NoH and multiplies by it again, so that the exponent ends at −1/α² where it
 /// should go to −∞: at the horizon D grows as NoH⁻⁴ and ∫ D cos θ dω diverges as NoH⁻² e^(−1/α²).
-/// Smooth surfaces hide it (e^(−1/α²) is 4e-44 at α = 0.1); the seed's author saw 'a strange effect
+/// Smooth surfaces hide it (e^(−1/α²) is 4e-44 at α = 0.1); its author saw 'a strange effect
 /// when roughness grows'.  No bound: the domain is NoH > 0.
 template <Real T>
 struct BeckmannAnisoAsWritten {
