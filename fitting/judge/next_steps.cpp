@@ -294,7 +294,8 @@ std::vector<std::string> next_steps(const FitOptions& o,
                       hardly.front()));
   }
   if (d.log_offset > 0)
-    steps.add("--metric l2_cosine gives dark values, which the noise floor lifts, less weight");
+    steps.add(fmt::format("--metric l2_cosine gives dark values, which the {}, less weight",
+                          f.offset ? "offset lowers" : "noise floor lifts"));
   if (f.few_angles)
     steps.add("8 incident angles or more would show the errors that values of one angle share");
   return std::move(steps).first();

@@ -63,6 +63,7 @@ FitFacts with_table(FitFacts f, const FitOptions& o, TableFacts& table, const Fi
   const Table& t = table.table();
   f.few_angles = !t.truth && o.intervals != Intervals::independent && !enough_angles(f.angles);
   f.copies = !copies_in_words(t).empty();
+  f.offset = table.negative_offset() > 0;
   if (!d.misfit.reproduces()) f.retro = table.retro();
   // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
   const auto narrow = [](const FittedParameter& p) {
@@ -125,7 +126,7 @@ std::vector<std::string> warnings(const FitOptions& o,
         fmt::format("relative errors shift values by about {}, more than intervals allow for: "
                     "--metric log does not",
                     percent(bias)));
-  if (d.log_offset > 0)
+  if (d.log_offset > 0 && !f.offset)
     all.push_back(fmt::format(
         "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
         "to dark places",

@@ -27,6 +27,7 @@ struct FitFacts {
   bool no_f = false;           ///< whether values are of another unit, or have a cosine left in
   bool few_angles = false;     ///< whether they are too few for errors that an angle's values share
   bool beyond_stated = false;  ///< whether what is left is more than the table's own uncertainties
+  bool offset = false;         ///< whether negative values are an offset rather than noise
   bool copies = false;         ///< whether angles of the table only repeat another
   std::optional<OddAngle> odd_angle = {};
   std::optional<Peak> retro = {};  ///< the highlight, where it is at wo = wi

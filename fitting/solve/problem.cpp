@@ -167,7 +167,7 @@ Problem pose(const Table& t, const FitOptions& o) {
   if (o.metric == Metric::uncertainty && t.errors.empty())
     throw bad_input(t.path, "metric uncertainty", "no uncertainties",
                     "a column u_f, uBRDF, or \"uncertainty\" in the side file");
-  return pose(t.channels.size(), noise_floor(t), o);
+  return pose(t.channels.size(), spread_of_negatives(t), o);
 }
 
 Problem pose(std::size_t channels, double offset, const FitOptions& o) {

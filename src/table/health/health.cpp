@@ -87,6 +87,13 @@ double negative_offset(TableFacts& facts) {
   return size > 0 && roughness_of_negatives(facts.table()) < follows ? size : 0;
 }
 
+double spread_of_negatives(const Table& t) {
+  const double size = negative_size(t);
+  if (size == 0) return 0;
+  TableFacts facts(t);
+  return facts.negative_channel() ? 0 : 1.4826 * size;
+}
+
 double noise_floor(TableFacts& facts) {
   const double size = negative_size(facts.table());
   return size > 0 && !facts.negative_channel() && facts.negative_offset() == 0 ? 1.4826 * size : 0;

@@ -88,6 +88,8 @@ double typical_uncertainty(const Table&);
 /// where negatives are noise, make up at least 0.1 % of the values there, and are neither one number that
 /// marks missing data nor an offset; else 0.
 double noise_floor(TableFacts&);
+/// The same, of an offset as well: what logarithms of dark values bear to be shifted by.
+double spread_of_negatives(const Table&);
 /// Median |negative| [1/sr] where such values follow their neighbours, as those do from which too much was taken off; else 0.
 double negative_offset(TableFacts&);
 double noise_floor(const Table&);

@@ -527,10 +527,11 @@ void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
 /// Noise lets neighbours change sides; what was taken off too much does not.
 void warn_of_offset(TableFacts& facts, std::vector<std::string>& all) {
   if (facts.negative_channel() || facts.negative_offset() == 0) return;
-  all.push_back(fmt::format(
-      "negative values, typically -{:.2g} 1/sr, follow their neighbours: an offset and no noise, "
-      "perhaps too much dark signal taken off (--metric l2_cosine minds it less)",
-      facts.negative_offset()));
+  all.push_back(
+      fmt::format("negative values, typically -{:.2g} 1/sr, follow their neighbours: rather an "
+                  "offset than noise, "
+                  "perhaps too much dark signal taken off (--metric l2_cosine minds it less)",
+                  facts.negative_offset()));
 }
 
 void warn_of_negative_channel(TableFacts& facts, std::vector<std::string>& all) {

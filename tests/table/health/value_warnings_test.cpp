@@ -304,9 +304,9 @@ TEST(ValueWarnings, TellAnOffsetBelowZeroFromNoise) {
       return f * std::exp(0.01 * normal(random)) + noise * normal(random) - offset;
     });
   };
-  EXPECT_TRUE(says(said(0.018, 0), "an offset and no noise"));
-  EXPECT_FALSE(says(said(0.018, 0.01), "an offset and no noise"));
-  EXPECT_FALSE(says(said(0, 0.02), "an offset and no noise"));
+  EXPECT_TRUE(says(said(0.018, 0), "rather an offset than noise"));
+  EXPECT_FALSE(says(said(0.018, 0.01), "rather an offset than noise"));
+  EXPECT_FALSE(says(said(0, 0.02), "rather an offset than noise"));
 }
 
 TEST(ValueWarnings, SayThatNoiseWasClippedToALeastValue) {
