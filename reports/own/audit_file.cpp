@@ -270,7 +270,8 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
                     {"width", a.model->width},
                     {"power", a.model->power},
                     {"factor", a.model->factor},
-                    {"operations", a.model->operations}};
+                    {"operations", a.model->operations},
+                    {"lacks_diffuse", a.model->lacks_diffuse}};
     j["slips"] = a.slips;
     j["not_looked_at"] = a.not_looked_at;
     rows.push_back(j);
@@ -326,7 +327,8 @@ std::string text_of(const FunctionAudit& a) {
   if (const auto& m = a.model) {
     line("D and V", fmt::format("those of {}{}", m->spec, width_text(m->width, m->power)));
     line("beside ours",
-         fmt::format("{} operations, ours {}", a.of.operations.total(), m->operations));
+         fmt::format("{} operations, ours {}{}", a.of.operations.total(), m->operations,
+                     m->lacks_diffuse ? " without a diffuse part" : ""));
   }
   for (const auto& slip : a.slips) line("likely slip", slip);
   for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));

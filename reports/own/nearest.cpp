@@ -327,6 +327,7 @@ std::optional<NearestModel> nearest_model(std::size_t term) {
           most = std::max(most, with[0][i] - without[0][i]);
         }
         const bool is_lambert = least > 0 && most < least * (1 + same_within);
+        n.lacks_diffuse = !is_lambert && most > same_within;
         n.spec =
             fmt::format("{}{}/{}/schlick", is_lambert ? "lambert+" : "", short_id(d), short_id(v));
         const std::size_t channels = f0->per_channel ? 3 : 1;

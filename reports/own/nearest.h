@@ -38,6 +38,8 @@ struct NearestModel {
   double power = 1;
   double factor = 1;  ///< the function's highlight over the model's
   std::size_t operations = 0;
+  bool lacks_diffuse =
+      false;  ///< the function has a diffuse part that is not Lambert's, which the model has not
 };
 /// The model whose D V F is the function's, with its other colours dark, but for a factor; none where none is, or where widths and f0 have no usual names.
 std::optional<NearestModel> nearest_model(std::size_t foreign_term);

@@ -130,7 +130,10 @@ TEST(AuditFile, AMissingFourOfAWholeModelIsFoundAndItsCostIsBesideOurs) {
   EXPECT_NE(text_of(right).find("beside ours"), std::string::npos);
   // In three channels D and G are computed once.
   EXPECT_LT(right.of.operations.total(), 2 * right.model->operations);
-  const auto wrong = audited(tutorial("1.0"));
+  EXPECT_FALSE(right.model->lacks_diffuse);
+  const auto wrong =
+      audited(replaced(tutorial("1.0"), "albedo / 3.14", "albedo * NoL * NoV / 3.14"));
+  EXPECT_TRUE(wrong.model->lacks_diffuse);
   EXPECT_NE(slips(wrong).find("a 4 is missing"), std::string::npos) << text_of(wrong);
 }
 
@@ -184,8 +187,7 @@ TEST(AuditFile, WhatIsSaidOfArgumentsGoesToTheFunctionsThatHaveThem) {
   EXPECT_EQ(nearest(all[0]), "fresnel.schlick");
   EXPECT_EQ(all[1].of.function->includes, "nothing");
   EXPECT_FALSE(all[1].of.function->guessed);
-  EXPECT_HAS(test::refusal([&] { audit_file(path + "{argument.q=voh}"); }, Exit::usage),
-             "'q'");
+  EXPECT_HAS(test::refusal([&] { audit_file(path + "{argument.q=voh}"); }, Exit::usage), "'q'");
 }
 
 TEST(CompareTerms, AWholeModelIsComparedWithOurs) {
