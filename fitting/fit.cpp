@@ -8,6 +8,8 @@
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/evaluate.h"
+#include "brdf/model/own_files.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/spec.h"
 #include "fitting/judge/assess.h"
@@ -30,6 +32,7 @@
 #include "table/format/measured_by.h"
 #include "table/health/value_warnings.h"
 
+#include <fmt/format.h>
 #include <tbb/task_group.h>
 
 namespace gonio {
@@ -131,6 +134,39 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
                  : "the wider of clustered by incident angle and independent values"};
 }
 
+/// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.
+void expect_values(const Table& t, const BoundModel& m) {
+  if (!names_own_file(m.model.spec)) return;
+  const SampleAngles sample(t);
+  std::size_t missing = 0, first = 0;
+  std::vector<FrameAngles<double>> angles;
+  std::vector<std::size_t> samples;
+  constexpr std::size_t block = 4096;
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const FrameAngles<double> at = sample.frame(i);
+    const auto is_there = [&](const auto& values) { return mask(at, values[i]) == Mask::valid; };
+    if (std::ranges::any_of(t.values, is_there)) {
+      angles.push_back(at);
+      samples.push_back(i);
+    }
+    if (angles.size() < block && i + 1 < t.size()) continue;
+    const auto f = evaluate(m, angles);
+    for (std::size_t k = 0; k < samples.size(); ++k)
+      if (std::ranges::any_of(f, [&](const auto& c) { return !std::isfinite(c[k]); }) &&
+          missing++ == 0)
+        first = samples[k];
+    angles.clear();
+    samples.clear();
+  }
+  if (missing == 0) return;
+  const auto [l, v] = sample.directions(first);
+  throw bad_input(
+      m.model.spec, fmt::format("{} of {} samples", missing, t.size()),
+      fmt::format("no value, first at θ_i {:.4g}°, θ_o {:.4g}°", std::acos(l.z) / degree,
+                  std::acos(v.z) / degree),
+      "a number; `gonio audit` names its inputs without one, and --mask leaves samples out");
+}
+
 /// \param tries  whether other models are tried, for `next`
 FitResult fit_and_judge(const Table& t,
                         const FitOptions& given,
@@ -158,6 +194,7 @@ FitResult fit_and_judge(const Table& t,
   Searched found = search(p, sampling, columns, watch, announce);
   const auto in_order = put_in_order(p, found.best);
   const Fitted& f = found.best;
+  expect_values(t, f.model);
 
   announce("standard errors");
   // Of few samples and so for one thread, beside what comes next.

@@ -32,7 +32,8 @@ OneLobe one_lobe(const Choice& c) {
   const Model m = c.shipped.composed();
   if (m.lobes.size() != 1 || m.anisotropic || c.shipped.coating)
     throw bad_input(c.path, "/model", fmt::format("'{}'", c.shipped.model),
-                    "one isotropic lobe that is no coat, for which a suggestion looks");
+                    "one isotropic lobe of D/V/F that is no coat: a suggestion exchanges those; of "
+                    "a shader name one function, FILE:D/V/F");
   OneLobe o;
   for (const auto& d : m.diffuse) o.before += std::string(short_id(catalogue()[d.term].id())) + '+';
   const auto name = [](const TermUse& t) {

@@ -92,6 +92,9 @@ std::string value_text(const UsedParameter& p) {
 
 std::string sentence(const BudgetCheck& b) {
   const auto place = place_text(b);
+  if (!std::isfinite(b.found))
+    return fmt::format("The model has no value{}, so it keeps no budget there.",
+                       place.empty() ? "" : " at " + place);
   return fmt::format(
       "{}{}; the budget is {}.{}",
       fmt::format(fmt::runtime(words_of(b.budget).found), value_text(b.budget, b.found)),

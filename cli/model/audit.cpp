@@ -136,7 +136,8 @@ void add_audit(CommandLine& line) {
            "Terms, maps or models, as `gonio models` lists them; or a shader, FILE[:FUNCTION]");
   add_reading(c, o->reading);
   c.flag("--all", o->all, "The whole catalogue");
-  c.option("--html", o->html, "A page, NAME.html, and its data beside it, NAME.page.json");
+  c.option("--html", o->html,
+           "A page, NAME.html, and its data beside it, NAME.page.json; of a shader there is none");
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -48,7 +48,8 @@ Exit run_terms(const CompareCall& o) {
   const auto with = [&](const std::string& name) {
     return foreign::is_name(name) ? read_as(name, o.reading) : name;
   };
-  const auto c = compare_terms(with(o.file), with(o.model), domain);
+  const auto c = is_term_name(o.model) ? compare_terms(with(o.file), with(o.model), domain)
+                                       : compare_with_model(with(o.file), o.model, domain);
   progress.clear();
   fmt::print("{}", o.json ? to_json(c) : text_of(c));
   return Exit::done;
@@ -56,7 +57,8 @@ Exit run_terms(const CompareCall& o) {
 
 Exit run(const CompareCall& o) {
   use(o);
-  if (is_term_name(o.file) && is_term_name(o.model)) return run_terms(o);
+  if (foreign::is_name(o.file) || (is_term_name(o.file) && is_term_name(o.model)))
+    return run_terms(o);
   if (!o.domain.empty()) throw wrong_usage("--domain goes with two terms, not with a table");
   Progress progress(o.quiet);
   progress("reading " + o.file);

@@ -6,9 +6,11 @@
 #include "base/error.h"
 #include "base/json/describe.h"
 #include "base/letters.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/own_files.h"
+#include "geometry/direction.h"
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/albedo/normalisation.h"
 #include "reports/finding/words.h"
@@ -23,12 +25,13 @@ namespace gonio {
 namespace {
 
 using auditing::Row;
+using auditing::Values;
 
 void take_largest(std::optional<FoundAt>& w, double v, const std::string& at) {
   if (!w || v > w->value || std::isnan(v)) w = FoundAt{v, at};
 }
 void take_smallest(std::optional<FoundAt>& w, double v, const std::string& at) {
-  if (!w || v < w->value) w = FoundAt{v, at};
+  if (!w || v < w->value || std::isnan(w->value)) w = FoundAt{v, at};
 }
 
 /// Values of parameters that an audit combines: five widths, the ends and the default of others, colours at their upper end.
@@ -45,6 +48,11 @@ std::vector<std::vector<double>> looked_at(std::span<const Parameter> parameters
     rows *= at.size();
     return at;
   });
+}
+
+std::string lowered(std::string s) {
+  std::ranges::transform(s, s.begin(), lower_case);
+  return s;
 }
 
 std::string half_text(const stability::Answer& a) {
@@ -64,17 +72,21 @@ std::string half_text(const stability::Answer& a) {
   return s;
 }
 
-std::string in_half(std::size_t term, const std::vector<std::pair<std::string, Range>>& domain) {
+std::string in_half(stability::Subject subject,
+                    const std::vector<std::pair<std::string, Range>>& domain) {
   stability::Question q;
-  q.subject = stability::subjects_of_term(term)
-                  .back();  // a distribution by its cosine NoH, as shaders have it
+  q.subject = std::move(subject);
   for (const auto& [name, range] : domain)
     for (const auto& i : q.subject.inputs)
-      if (i.name == name) stability::set_domain(q.subject, name, range);
+      if (lowered(i.name) == lowered(name)) stability::set_domain(q.subject, i.name, range);
   for (auto& i : q.subject.inputs)
     if (i.domain.high > 1e29) return fmt::format("not looked at: {} has no bounds", i.name);
   q.boxes = 2000;
   return half_text(stability::answer(q));
+}
+std::string in_half(std::size_t term, const std::vector<std::pair<std::string, Range>>& domain) {
+  // A distribution by its cosine NoH, as shaders have it.
+  return in_half(stability::subjects_of_term(term).back(), domain);
 }
 
 void laws_of_lobe(FunctionAudit& a,
@@ -104,8 +116,29 @@ void laws_of_lobe(FunctionAudit& a,
   }
 }
 
+/// Directions nearer to the horizon than those that laws are looked at with: there many shaders divide by 0 or take roots of less.
+std::vector<Row> grazing() {
+  std::vector<Row> rows;
+  for (const double nol : {0.001, 0.01, 0.03, 0.5, 1.0})
+    for (const double nov : {0.001, 0.01, 0.03, 0.5, 1.0})
+      for (const double phi : {0.0, 90.0, 180.0})
+        rows.push_back(auditing::row(std::acos(nol), 0, std::acos(nov), phi * degree));
+  return rows;
+}
+
+/// True of a function that no direction decides on: an argument of another name may be a cosine.
+bool reads_no_direction(const foreign::Function& f) {
+  return f.stands == foreign::Stands::lobe &&
+         std::ranges::all_of(
+             f.arguments, [](const foreign::Argument& x) { return x.stands_for == "parameter"; });
+}
+
 FunctionAudit audit_function(FileFunction f) {
   FunctionAudit a;
+  if (reads_no_direction(*f.function)) {
+    a.of = std::move(f);
+    return a;
+  }
   const auto token = foreign::text_of(f.function->name);
   const std::size_t term = foreign_term_named(token);
   const auto& entry = catalogue()[term];
@@ -115,15 +148,23 @@ FunctionAudit audit_function(FileFunction f) {
   const auto& rows = auditing::rows_of(role);
   std::vector<Row> other;
   for (const auto& r : rows) other.push_back(auditing::exchanged(r));
+  const auto horizon = role == Role::ndf || role == Role::fresnel ? std::vector<Row>{} : grazing();
+  const auto count_finite = [&](const std::vector<double>& v, const Values& p,
+                                const std::vector<Row>& at) {
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (std::isfinite(v[i])) continue;
+      if (a.not_finite++ == 0)
+        a.not_finite_at = auditing::joined(auditing::text(parameters, p), auditing::text(at[i]));
+    }
+  };
   for (const auto& p : settings)
     for (std::size_t c = 0; c < f.function->programs.size(); ++c) {
+      count_finite(values_in(Number::double_, term + c, p, horizon), p, horizon);
       const auto v = values_in(Number::double_, term + c, p, rows);
       const auto w = values_in(Number::double_, term + c, p, other);
+      count_finite(v, p, rows);
       for (std::size_t i = 0; i < v.size(); ++i) {
-        if (!std::isfinite(v[i])) {
-          ++a.not_finite;
-          continue;
-        }
+        if (!std::isfinite(v[i])) continue;
         const auto at = [&] {
           return auditing::joined(auditing::text(parameters, p), auditing::text(rows[i]));
         };
@@ -140,9 +181,13 @@ FunctionAudit audit_function(FileFunction f) {
       if (const double v = normalisation(term, p).value;
           !a.normalisation || std::abs(v - 1) > std::abs(a.normalisation->value - 1))
         a.normalisation = FoundAt{v, auditing::text(parameters, p)};
-  if (role == Role::diffuse) laws_of_lobe(a, token, parameters, settings);
+  if (role == Role::diffuse) {
+    laws_of_lobe(a, token, parameters, settings);
+    a.model = nearest_model(term);
+    if (a.model) a.slips = likely_slips(*a.model);
+  }
   a.half = in_half(term, {});
-  if (role != Role::diffuse || !f.function->reads_frame) {
+  if (!a.model && (role != Role::diffuse || !f.function->reads_frame)) {
     constexpr double far_off = 1;  // no form resembles it
     a.nearest = nearest_form(term);
     if (a.nearest && a.nearest->difference > far_off) a.nearest.reset();
@@ -155,21 +200,21 @@ FunctionAudit audit_function(FileFunction f) {
   return a;
 }
 
+std::string width_text(const std::string& width, double power) {
+  if (width.empty()) return "";
+  if (power < 0) return fmt::format(", alpha = √(2/({} + 2))", width);
+  return fmt::format(", alpha = {}{}{}", power == 0.5 ? "√" : "", width,
+                     power == 2   ? "²"
+                     : power == 4 ? "⁴"
+                                  : "");
+}
+
 std::string nearest_text(const FunctionAudit& a) {
   const auto& n = *a.nearest;
   const auto id = catalogue()[n.term].id();
-  std::string map;
-  if (!n.width.empty())
-    map = fmt::format(", alpha = {}{}", n.power == 0.5 ? "√" : "", n.width) + (n.power == 2   ? "²"
-                                                                               : n.power == 4 ? "⁴"
-                                                                                              : "");
+  const std::string map = width_text(n.width, n.power);
   if (!is_same(n)) return fmt::format("{}{}: up to {:.2g} apart", id, map, n.difference);
   return fmt::format("{}{}", id, map);
-}
-
-std::string lowered(std::string s) {
-  std::ranges::transform(s, s.begin(), lower_case);
-  return s;
 }
 
 }  // namespace
@@ -209,6 +254,7 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
     j["darkest"] = found(a.darkest);
     j["lowest"] = found(a.lowest);
     j["not_finite"] = a.not_finite;
+    j["not_finite_at"] = a.not_finite ? Json(a.not_finite_at) : Json();
     j["half"] = a.half;
     j["nearest"] = Json();
     if (a.nearest)
@@ -219,6 +265,14 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
                       {"factor", a.nearest->factor},
                       {"difference", a.nearest->difference},
                       {"operations", operations_of(a.nearest->term).sample.total()}};
+    j["model"] = Json();
+    if (a.model)
+      j["model"] = {{"spec", a.model->spec},
+                    {"width", a.model->width},
+                    {"power", a.model->power},
+                    {"factor", a.model->factor},
+                    {"operations", a.model->operations},
+                    {"lacks_diffuse", a.model->lacks_diffuse}};
     j["slips"] = a.slips;
     j["not_looked_at"] = a.not_looked_at;
     rows.push_back(j);
@@ -238,28 +292,44 @@ std::string text_of(const FunctionAudit& a) {
   const auto line = [&](const char* name, const std::string& text) {
     if (!text.empty()) s += fmt::format("  {:<16}{}\n", name, text);
   };
+  if (reads_no_direction(f)) {
+    line("not audited",
+         "it reads no direction. Where an argument is a cosine, say which: --argument u=voh");
+    return s;
+  }
   if (f.stands == foreign::Stands::lobe)
     line("includes", f.includes + (f.guessed ? " (guessed; --includes says it)" : ""));
   if (const auto& n = a.normalisation)
     line("∫ D cos θ", std::abs(n->value - 1) < 1e-4 ? "1: normalised"
                                                     : fmt::format("{:.5g} at {}", n->value, n->at));
-  if (const auto& e = a.albedo) {
+  if (const auto& e = a.albedo; e && std::isnan(e->value)) {
+    line("energy", "the albedo has no value at " + e->at);
+  } else if (e) {
     line("energy", e->value > 1 + 1e-3
                        ? fmt::format("gains: albedo {:.4g} at {}", e->value, e->at)
                        : fmt::format("gains none: albedo at most {:.4g}", e->value));
     if (a.usual) line("", fmt::format("albedo {:.4g} at {}", a.usual->value, a.usual->at));
-    line("", fmt::format("least albedo {:.4g} at {}", a.darkest->value, a.darkest->at));
+    line("", fmt::format("of colours at their upper bounds no less than {:.4g}, at {}",
+                         a.darkest->value, a.darkest->at));
   }
   if (const auto& r = a.reciprocity)
     line("reciprocity",
          r->value < 1e-6 ? "kept" : fmt::format("off by {:.2g} at {}", r->value, r->at));
   if (a.lowest) line("negative", fmt::format("{:.3g} at {}", a.lowest->value, a.lowest->at));
-  if (a.not_finite) line("without a value", fmt::format("{} inputs, in double", a.not_finite));
+  if (a.not_finite)
+    line("without a value",
+         fmt::format("{} inputs, in double; the first at {}", a.not_finite, a.not_finite_at));
   line("in half", a.half);
   if (a.nearest) {
     line(is_same(*a.nearest) ? "it is" : "nearest", nearest_text(a));
     line("beside ours", fmt::format("{} operations, ours {}", a.of.operations.total(),
                                     operations_of(a.nearest->term).sample.total()));
+  }
+  if (const auto& m = a.model) {
+    line("D and V", fmt::format("those of {}{}", m->spec, width_text(m->width, m->power)));
+    line("beside ours",
+         fmt::format("{} operations, ours {}{}", a.of.operations.total(), m->operations,
+                     m->lacks_diffuse ? " without a diffuse part" : ""));
   }
   for (const auto& slip : a.slips) line("likely slip", slip);
   for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));
@@ -363,6 +433,68 @@ TermComparison compare_terms(const std::string& a,
     }
   }
   return *best;
+}
+
+TermComparison compare_with_model(const std::string& own,
+                                  const std::string& spec,
+                                  const std::vector<std::pair<std::string, Range>>& domain) {
+  const std::size_t term = foreign_term_named(own);
+  const auto& entry = catalogue()[term];
+  if (entry.role() != Role::diffuse)
+    throw wrong_usage(fmt::format("{} is of {}, and {} a whole model: name a term of ours, as {}.…",
+                                  own, name_of(entry.role()), spec, name_of(entry.role())));
+  const auto width = width_of(entry.parameters);
+  const auto is_one_of = [](std::string_view name, std::initializer_list<std::string_view> names) {
+    return std::ranges::find(names, lowered(std::string(name))) != names.end();
+  };
+  const auto stands_for = [&](std::string_view ours, const Parameter& p) {
+    if (lowered(std::string(p.name)) == ours) return true;
+    if (ours == "alpha") return width && &p == &entry.parameters[*width];
+    if (ours == "kd") return is_one_of(p.name, {"albedo", "diffuse", "basecolor", "base_color"});
+    return ours == "f0" && is_one_of(p.name, {"specular", "r0", "ks"});
+  };
+  TermComparison c;
+  c.a = own, c.b = spec, c.measure = "f over its own value";
+  constexpr std::size_t places = 9;
+  const auto& rows = auditing::rows_of(Role::diffuse);
+  double sum = 0;
+  std::size_t count = 0;
+  BoundModel model = bind_model(spec, {}, 1);
+  for (std::size_t k = 0; k < places; ++k) {
+    std::vector<double> p;
+    for (const auto& w : entry.parameters) {
+      Parameter at = w;
+      for (const auto& [n, r] : domain)
+        if (lowered(n) == lowered(std::string(w.name))) at.legal = r, at.start = r.low;
+      if (std::isnan(at.start))
+        throw wrong_usage(fmt::format("{} of {} has no bounds: give them by --domain {}=LOW,HIGH",
+                                      w.name, own, w.name));
+      p.push_back(values_between(at, places)[k]);
+    }
+    for (const auto& q : model.model.parameters)
+      for (std::size_t j = 0; j < p.size(); ++j)
+        if (const auto& w = entry.parameters[j]; stands_for(q.name, w)) {
+          const bool is_rough =
+              q.name == "alpha" && lowered(std::string(w.name)).find("rough") != std::string::npos;
+          model.values[q.first] = is_rough ? p[j] * p[j] : p[j];
+        }
+    const auto f = values_in(Number::double_, term, p, rows), g = evaluate(model, rows)[0];
+    for (std::size_t i = 0; i < rows.size(); ++i) {
+      const double d = std::abs(f[i] / g[i] - 1);
+      if (!std::isfinite(d)) continue;
+      sum += d * d;
+      ++count;
+      if (d > c.largest)
+        c.largest = d,
+        c.at = auditing::joined(auditing::text(entry.parameters, p), auditing::text(rows[i]));
+    }
+  }
+  c.rms = count ? std::sqrt(sum / static_cast<double>(count)) : 0;
+  c.operations_a = operations_of(*foreign_term(term)->function, 3).total();
+  c.operations_b = operations_of(compose(spec, 3)).total();
+  c.half_a = in_half(term, domain);
+  c.half_b = in_half(stability::subjects_of(spec).back(), {});
+  return c;
 }
 
 std::string to_json(const TermComparison& c) {

@@ -28,8 +28,10 @@ struct FunctionAudit {
       usual;  ///< the albedo with defaults, at NoV 0.5, the largest of its channels
   std::optional<FoundAt> lowest;  ///< below 0, else none
   std::size_t not_finite = 0;     ///< of the inputs looked at, in double
+  std::string not_finite_at;      ///< the first of them
   std::string half;               ///< what it keeps in half, in a sentence
   std::optional<NearestForm> nearest;
+  std::optional<NearestModel> model;  ///< of a whole model
   std::vector<std::string> slips;
   std::vector<std::string> not_looked_at;  ///< what could not be, and why
 };
@@ -51,6 +53,10 @@ struct TermComparison {
 TermComparison compare_terms(const std::string& a,
                              const std::string& b,
                              const std::vector<std::pair<std::string, Range>>& domain);
+/// A file's function that is a whole model beside a model: parameters by name, a width also as roughness, in three channels.
+TermComparison compare_with_model(const std::string& own,
+                                  const std::string& spec,
+                                  const std::vector<std::pair<std::string, Range>>& domain);
 std::string to_json(const TermComparison&);
 std::string text_of(const TermComparison&);
 /// True of an id of a term, with its role, or a file's function.

@@ -4,9 +4,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <span>
 
 #include "base/letters.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
+#include "brdf/model/spec.h"
 #include "reports/measure/samples.h"
 
 #include <fmt/format.h>
@@ -19,6 +22,11 @@ using auditing::Values;
 
 constexpr double same_within = 1e-3;
 constexpr std::array powers{1.0, 2.0, 0.5, 4.0};
+/// Stands for alpha = √(2/(exponent + 2)), of exponents of a cosine.
+constexpr double of_exponent = -2;
+double alpha_of(double width, double power) {
+  return power == of_exponent ? std::sqrt(2 / (width + 2)) : std::pow(width, power);
+}
 
 std::string plain_name(std::string_view name) {
   std::string s;
@@ -28,6 +36,12 @@ std::string plain_name(std::string_view name) {
 }
 bool is_rough(std::string_view name) {
   return plain_name(name).find("rough") != std::string::npos;
+}
+
+bool is_exponent(std::string_view name) {
+  const auto n = plain_name(name);
+  return n.find("shin") != n.npos || n.find("expo") != n.npos || n == "n" || n == "power" ||
+         n == "specpower" || n == "specularpower";
 }
 
 /// Which of the file's parameters stands for each of the form's: [form's parameter] → the file's, or none.
@@ -52,6 +66,27 @@ Pairing pair_up(const TermEntry& own, const TermEntry& form) {
   return p;
 }
 
+constexpr double pi = std::numbers::pi;
+/// Factors that are slips often made.
+constexpr std::array<std::pair<double, const char*>, 7> usual_factors{
+    {{pi, "π times too large: 1/π is missing"},
+     {1 / pi, "π times too small: it is divided by π once too often"},
+     {4, "4 times too large: a 4 is missing below"},
+     {0.25, "4 times too small: a 4 too many below"},
+     {4 * pi, "4π times too large: 1/(4π) is missing"},
+     {2, "twice too large: a factor ½ is missing, as in V = ½/(…)"},
+     {0.5, "half of what it should be"}}};
+
+std::string factor_text(double factor) {
+  for (const auto& [value, text] : usual_factors)
+    if (std::abs(factor / value - 1) < same_within) return text;
+  return fmt::format("{:.4g} times that form", factor);
+}
+bool is_usual(double factor) {
+  return std::ranges::any_of(
+      usual_factors, [&](const auto& u) { return std::abs(factor / u.first - 1) < same_within; });
+}
+
 /// Compares the file's function with one form, alpha being one power of its width.
 NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing, double power) {
   const auto &own = catalogue()[term], &other = catalogue()[form];
@@ -69,7 +104,7 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     for (std::size_t j = 0; j < other.parameters.size(); ++j) {
       const auto from = pairing.of[j];
       double v = from ? p[*from] : other.parameters[j].start;
-      if (from && from == pairing.width) v = std::pow(v, power);
+      if (from && from == pairing.width) v = alpha_of(v, power);
       is_legal = is_legal && other.parameters[j].legal.holds(v);
       q.push_back(v);
     }
@@ -85,13 +120,25 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
   if (ratios.empty() || f.size() < 2) return n;
   std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));
   const bool scales = own.role() == Role::ndf || own.role() == Role::diffuse;
-  n.factor = scales ? ratios[ratios.size() / 2] : 1;
+  n.factor = scales || (own.role() == Role::masking && is_usual(ratios[ratios.size() / 2]))
+                 ? ratios[ratios.size() / 2]
+                 : 1;
   double highest = 0, wanted = 0;
   for (std::size_t k = 0; k < f.size(); ++k) {
     highest = std::max(highest, *std::ranges::max_element(f[k]));
     wanted = std::max(wanted, n.factor * *std::ranges::max_element(g[k]));
   }
   if (own.role() == Role::ndf && highest < wanted * (1 - same_within)) n.cap = highest;
+  if (power == of_exponent) {
+    n.norms = Range{1e300, 0};
+    for (std::size_t k = 0; k < f.size(); ++k) {
+      const double norm = *std::ranges::max_element(f[k]) / *std::ranges::max_element(g[k]);
+      for (double& x : f[k]) x *= n.factor / norm;
+      n.norms = Range{std::min(n.norms->low, norm), std::max(n.norms->high, norm)};
+    }
+    if (n.norms->high < n.norms->low * (1 + same_within)) n.norms.reset();
+    n.cap.reset();
+  }
   n.difference = 0;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const double peak = own.role() == Role::ndf ? *std::ranges::max_element(g[k]) : 1;
@@ -104,20 +151,6 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     }
   }
   return n;
-}
-
-std::string factor_text(double factor) {
-  constexpr double pi = std::numbers::pi;
-  for (const auto& [value, text] : std::initializer_list<std::pair<double, const char*>>{
-           {pi, "π times too large: 1/π is missing"},
-           {1 / pi, "π times too small: it is divided by π once too often"},
-           {4, "4 times too large: a 4 is missing below"},
-           {0.25, "4 times too small: a 4 too many below"},
-           {4 * pi, "4π times too large: 1/(4π) is missing"},
-           {2, "twice too large"},
-           {0.5, "half of what it should be"}})
-    if (std::abs(factor / value - 1) < same_within) return text;
-  return fmt::format("{:.4g} times that form", factor);
 }
 
 }  // namespace
@@ -141,7 +174,9 @@ std::optional<std::size_t> width_of(std::span<const Parameter> parameters) {
       if (plain_name(parameters[k].name).starts_with(name)) return k;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto n = plain_name(parameters[k].name);
-    if (n == "a" || n == "a2" || n == "m" || n == "r" || n.find("rough") != n.npos) return k;
+    if (is_exponent(n) || n == "a" || n == "a2" || n == "m" || n == "r" ||
+        n.find("rough") != n.npos)
+      return k;
   }
   return {};
 }
@@ -157,7 +192,9 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
     const auto& entry = catalogue()[form];
     if (entry.role() != own.role() || entry.anisotropic || entry.coupled) continue;
     const Pairing pairing = pair_up(own, entry);
-    for (const double power : powers) {
+    const bool by_exponent = pairing.width && is_exponent(own.parameters[*pairing.width].name);
+    for (const double power :
+         by_exponent ? std::span(&of_exponent, 1) : std::span<const double>(powers)) {
       if (power != 1 && !pairing.width) continue;
       const auto n = compared(term, form, pairing, power);
       if (!std::isfinite(n.difference)) continue;
@@ -195,7 +232,12 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
       all.push_back(
           fmt::format("{} stands where {}² belongs: the form's alpha is √{} here", w, w, w));
   }
-  if (std::abs(n.factor - 1) > same_within && (own.role() == Role::ndf))
+  if (n.norms)
+    all.push_back(
+        fmt::format("the form is right and its norm is not: it is {:.3g} to {:.3g} times that of a "
+                    "distribution, whose ∫ D cos θ is 1",
+                    n.norms->low, n.norms->high));
+  else if (std::abs(n.factor - 1) > same_within && own.role() != Role::diffuse)
     all.push_back(factor_text(n.factor));
   if (n.cap && n.width.size()) {
     const double alpha = 1 / std::sqrt(std::numbers::pi * *n.cap / n.factor);  // of a GGX peak
@@ -213,6 +255,99 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
       all.push_back(
           "its k is that of direct light, (roughness + 1)²/8; under an environment k = alpha/2");
   }
+  return all;
+}
+
+std::optional<NearestModel> nearest_model(std::size_t term) {
+  const auto& own = catalogue()[term];
+  const auto width = width_of(own.parameters);
+  const auto f0 = std::ranges::find_if(own.parameters, [](const Parameter& p) {
+    const auto n = plain_name(p.name);
+    return n == "f0" || n == "r0" || n == "ks" || n.starts_with("specular");
+  });
+  if (own.role() != Role::diffuse || !width || f0 == own.parameters.end()) return {};
+  const auto& rows = auditing::rows_of(Role::diffuse);
+  const auto widths = values_between(own.parameters[*width], 4);
+  // The function's values by width: with F = 1, and with what else the parameters are.
+  const auto values = [&](double f0_is, bool others) {
+    std::vector<Values> all;
+    for (const double w : widths) {
+      Values p;
+      for (const auto& q : own.parameters)
+        p.push_back(&q == &own.parameters[*width] ? w
+                    : &q == &*f0                  ? f0_is
+                    : std::isnan(q.start)         ? 0.5
+                    : others                      ? q.start
+                                                  : q.legal.low);
+      all.push_back(values_in(Number::double_, term, p, rows));
+    }
+    return all;
+  };
+  const auto dark = values(1, false);
+  const auto is_alpha_only = [](const TermEntry& e) {
+    return !e.anisotropic && !e.coupled && e.parameters.size() == 1 &&
+           e.parameters[0].name == "alpha";
+  };
+  /// Values of each form of a role by width; none where alpha is none of the form's.
+  const auto forms = [&](Role role, double power) {
+    std::vector<std::pair<std::size_t, std::vector<Values>>> all;
+    for (std::size_t form = 0; form < catalogue_size(); ++form) {
+      if (catalogue()[form].role() != role || !is_alpha_only(catalogue()[form])) continue;
+      std::vector<Values> of;
+      for (const double w : widths)
+        if (const double alpha = alpha_of(w, power);
+            catalogue()[form].parameters[0].legal.holds(alpha))
+          of.push_back(values_in(Number::double_, form, std::array{alpha}, rows));
+      if (of.size() == widths.size()) all.emplace_back(form, std::move(of));
+    }
+    return all;
+  };
+  const auto short_id = [](std::size_t form) {
+    const std::string id(catalogue()[form].id());
+    return id.substr(id.find('.') + 1);
+  };
+  for (const double power : powers) {
+    const auto shapes = forms(Role::ndf, power), maskings = forms(Role::masking, power);
+    for (const auto& [d, d_values] : shapes)
+      for (const auto& [v, v_values] : maskings) {
+        const double factor = dark[0][0] / (d_values[0][0] * v_values[0][0]);
+        const auto is_highlight = [&](std::size_t k, std::size_t i) {
+          const double wanted = factor * d_values[k][i] * v_values[k][i];
+          return std::abs(dark[k][i] - wanted) <= same_within * std::abs(wanted);
+        };
+        bool same = factor > 0 && std::isfinite(factor);
+        for (std::size_t k = 0; same && k < widths.size(); ++k)
+          for (std::size_t i = 0; same && i < rows.size(); ++i) same = is_highlight(k, i);
+        if (!same) continue;
+        NearestModel n{"", std::string(own.parameters[*width].name), power, factor};
+        const auto with = values(f0->legal.low, true), without = values(f0->legal.low, false);
+        double least = 1e300, most = -1e300;
+        for (std::size_t i = 0; i < rows.size(); ++i) {
+          least = std::min(least, with[0][i] - without[0][i]);
+          most = std::max(most, with[0][i] - without[0][i]);
+        }
+        const bool is_lambert = least > 0 && most < least * (1 + same_within);
+        n.lacks_diffuse = !is_lambert && most > same_within;
+        n.spec =
+            fmt::format("{}{}/{}/schlick", is_lambert ? "lambert+" : "", short_id(d), short_id(v));
+        const std::size_t channels = f0->per_channel ? 3 : 1;
+        n.operations = operations_of(compose(n.spec, channels)).total();
+        return n;
+      }
+  }
+  return {};
+}
+
+std::vector<std::string> likely_slips(const NearestModel& n) {
+  std::vector<std::string> all;
+  if (std::abs(n.factor - 1) > same_within)
+    all.push_back("its highlight is " + factor_text(n.factor));
+  if (is_rough(n.width) && n.power == 1)
+    all.push_back(fmt::format("{} is taken for alpha: alpha is {}², so highlights are too wide",
+                              n.width, n.width));
+  if (is_rough(n.width) && n.power == 4)
+    all.push_back(fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²",
+                              n.width, n.width, n.width));
   return all;
 }
 

@@ -27,7 +27,24 @@ struct NearestForm {
   double difference =
       0;  ///< largest, of a distribution over its peak; where it is capped, elsewhere
   std::optional<double> cap;  ///< the file's largest value, where it is less than the form's
+  /// Least and largest of the factors by width, where one for all is not enough: the form is right, its norm is not.
+  std::optional<Range> norms;
 };
+
+/// Model of the catalogue whose highlight a whole function has.
+struct NearestModel {
+  std::string spec;
+  std::string width;
+  double power = 1;
+  double factor = 1;  ///< the function's highlight over the model's
+  std::size_t operations = 0;
+  bool lacks_diffuse =
+      false;  ///< the function has a diffuse part that is not Lambert's, which the model has not
+};
+/// The model whose D V F is the function's, with its other colours dark, but for a factor; none where none is, or where widths and f0 have no usual names.
+std::optional<NearestModel> nearest_model(std::size_t foreign_term);
+/// What a factor of a highlight says is missing; "" of 1.
+std::vector<std::string> likely_slips(const NearestModel&);
 
 /// The nearest form of the same role; none where nothing has a value that can be compared.
 std::optional<NearestForm> nearest_form(std::size_t foreign_term);

@@ -6,8 +6,8 @@
 #include "base/error.h"
 #include "base/json/describe.h"
 #include "base/text.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/model/own_files.h"
-#include "foreign/interpret.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -117,20 +117,6 @@ void add_own_files(Json& document, const std::string& spec) {
   if (!files.empty()) document[std::string(own_files_key)] = json_of(files);
 }
 
-Operations operations_of(const foreign::Program& p) {
-  using C = Counted<double>;
-  foreign::Interpreter<C> run(p);
-  std::size_t count = 0;
-  for (const auto& i : p.inputs)
-    if (!i.of_sample) count = std::max(count, i.index + 1);
-  run.set(std::vector<C>(count, C(0.5)));
-  return count_operations([&] {
-    run.run(
-        1, [](std::size_t, std::size_t) { return C(0.5); },
-        [](std::size_t, std::size_t, const C&) {});
-  });
-}
-
 FileFunctions file_functions(const std::string& token) {
   const auto name = foreign::parse_name(token);
   FileFunctions all{name.file, {}, {}};
@@ -165,7 +151,10 @@ FileFunctions file_functions(const std::string& token) {
       }
     }
     if (f.function) {
-      for (const auto& p : f.function->programs) f.operations += operations_of(p);
+      const bool colour =
+          f.function->programs.size() > 1 ||
+          std::ranges::any_of(f.function->parameters, &foreign::FunctionParameter::per_channel);
+      f.operations = operations_of(*f.function, colour ? 3 : 1);
       all.sha256 = f.function->sha256;
     }
     all.functions.push_back(std::move(f));

@@ -31,7 +31,4 @@ std::string text_of(const FileFunctions&);
 /// Adds the files that a spec takes functions from, with their hashes, where there are any.
 void add_own_files(Json& document, const std::string& spec);
 
-/// Operations of a program, those that are done once for given parameters left out.
-Operations operations_of(const foreign::Program&);
-
 }  // namespace gonio

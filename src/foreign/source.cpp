@@ -81,11 +81,19 @@ Declared declared_in(const std::string& path, int number, std::span<const std::s
   return d;
 }
 
-/// A comment "// alpha 0.001 1 0.2" (the default may be absent).
+/// A comment "// alpha 0.001 1 0.2" (the default may be absent), or "// … parameter alpha in [0.001, 1]" as gonio writes it.
 std::optional<Declared> declared_by_comment(int number, std::string_view line) {
   const auto at = line.find("//");
   if (at == line.npos) return {};
-  const auto words = words_of(line.substr(at + 2));
+  std::string text(line.substr(at + 2));
+  if (const auto said = text.find("parameter ");
+      said != text.npos && text.find(" in [", said) != text.npos) {
+    text = text.substr(said + 10);
+    text.replace(text.find(" in ["), 5, " ");
+    std::ranges::replace_if(
+        text, [](char c) { return c == ',' || c == ']'; }, ' ');
+  }
+  const auto words = words_of(text);
   if (words.size() < 3 || !is_identifier(words[0])) return {};
   std::vector<double> v;
   for (const auto w : std::span(words).subspan(1)) {

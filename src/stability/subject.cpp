@@ -41,9 +41,10 @@ std::vector<Given> given_to(std::size_t term) {
   return {entry.anisotropic ? Given::turned : half ? Given::directions : Given::cosines};
 }
 
-Input input_of(const Parameter& p) {
+/// \param own  of a person's function, whose bounds hold where it has some
+Input input_of(const Parameter& p, bool own) {
   Input i{std::string(p.name), p.legal, p.legal, {}};
-  if (p.name.starts_with("alpha")) {
+  if (p.name.starts_with("alpha") && !(own && !std::isnan(p.start))) {
     // Two widths: their ratio is a surface's anisotropy, up to 1e4.
     i.legal = {least_width, p.legal.high};
     i.domain = {p.name == "alpha" ? least_width : 1e-4, 1};
@@ -96,12 +97,20 @@ bool reads_foreign_frame(const Model& m) {
   });
 }
 
+bool is_own(const Model& m, const Parameter* p) {
+  return std::ranges::any_of(terms_of(m), [&](const TermUse* t) {
+    const auto all = catalogue()[t->term].parameters;
+    return foreign_term(t->term) &&
+           std::ranges::any_of(all, [&](const Parameter& q) { return &q == p; });
+  });
+}
+
 Subject subject_of_model(std::string_view spec) {
   Model m = compose(spec, 1);
   std::vector<Input> inputs;
   for (const auto& p : m.parameters) {
     if (&p == m.tangent()) continue;  // azimuths are given from there
-    inputs.push_back(input_of(*p.about));
+    inputs.push_back(input_of(*p.about, is_own(m, p.about)));
     inputs.back().name = p.name;
   }
   const bool turned = m.anisotropic || reads_foreign_frame(m);
@@ -129,7 +138,7 @@ std::vector<Subject> subjects_of_term(std::size_t term) {
   std::vector<Subject> all;
   for (const auto given : given_to(term)) {
     std::vector<Input> inputs;
-    for (const auto& p : entry.parameters) inputs.push_back(input_of(p));
+    for (const auto& p : entry.parameters) inputs.push_back(input_of(p, foreign_term(term)));
     all.push_back(subject(std::string(entry.id()), given, std::move(inputs)));
     all.back().term = term;
   }

@@ -33,6 +33,18 @@ struct Written {
   }
 };
 
+TEST(Function, BoundsAreReadAsGonioWritesThem) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "// parameter alpha in [0.05, 0.5]: width of the lobe\nfloat D(float NoH, float alpha) { "
+      "return alpha * NoH; }\n");
+  const auto f = w.function();
+  ASSERT_EQ(f.parameters.size(), 1U);
+  EXPECT_TRUE(f.parameters[0].bounded);
+  EXPECT_EQ(f.parameters[0].range.low, 0.05);
+  EXPECT_EQ(f.parameters[0].range.high, 0.5);
+}
+
 TEST(Function, CosinesAreKnownByTheirUsualNames) {
   SKIP_WITHOUT_SHADERS;
   for (const std::string noh : {"NoH", "NdotH", "dotNH", "n_dot_h", "NH", "HdotN", "costhetah"}) {

@@ -157,6 +157,23 @@ TEST(OwnModel, AFitFindsItsParametersAgain) {
   }
 }
 
+TEST(OwnModel, AFitNamesTheSamplesWhereThereIsNoValue) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  FitOptions o;
+  o.model = folder.write(
+      "rim.glsl",
+      "// kd 0 1 0.5\nfloat f(float NoL, float NoV, float NoH, float kd) { return kd / "
+      "3.14159265 + 0.0 * NoH * NoL * sqrt(NoV - 0.2); }\n");
+  SynthOptions s;
+  s.layout = Layout::random;
+  s.samples = 300;
+  const Table t = synthesize(bind_model("lambert", {{"kd", {0.5}}}), s);
+  const auto said = refusal([&] { fit(t, o); });
+  EXPECT_HAS(said, "of 300 samples");
+  EXPECT_HAS(said, "found no value, first at");
+}
+
 TEST(OwnModel, AFreeParameterWithoutBoundsIsNamed) {
   SKIP_WITHOUT_SHADERS;
   const Folder folder;
@@ -202,6 +219,9 @@ TEST(OwnModel, OperationsAreTheSameWheneverTheyAreCounted) {
   })
       .join();
   EXPECT_EQ(first, second);
+  // What channels share is counted once, as ours is.
+  const std::size_t one = operations_of(compose(file() + ":brdf", 1)).total();
+  EXPECT_LT(first, 2 * one);
 }
 
 TEST(OwnModel, AWholeModelIsNoDistribution) {

@@ -245,6 +245,9 @@ TEST(Validate, HoldsWhatIsNoNumberForTheWorst) {
   const auto w = validating::worst(c, {}, validating::on_grid(c, {}, error, {}), error);
   EXPECT_TRUE(std::isnan(w.value));
   EXPECT_EQ(w.at.roughness, 1);
+  BudgetCheck b{"albedo_error", 1e-3, nan, false, "searched"};
+  b.at = {{"roughness", 1}};
+  EXPECT_EQ(sentence(b), "The model has no value at roughness 1, so it keeps no budget there.");
 }
 
 TEST(Validate, TellsTimeOverTheBaselines) {
