@@ -21,6 +21,9 @@ Name parse_name(std::string_view name) {
 
 namespace gonio {
 
+bool names_own_file(std::string_view) {
+  return false;
+}
 std::vector<OwnFile> own_files(const std::vector<std::string>&, const std::string&) {
   return {};
 }
