@@ -120,10 +120,12 @@ TEST(ExportedFit, OfDarkGlossyPlasticIsNoMetalInAnyTarget) {
                                 0.02);
       SCOPED_TRACE(std::string(name_of(to)) + " " + alpha);
       for (const auto& [name, values] : e.parameters) {
-        if (name == "metallic" || name == "base_metalness" || name == "metalness")
+        if (name == "metallic" || name == "base_metalness" || name == "metalness") {
           EXPECT_EQ(values[0], 0);
-        if (name == "base_color" || name == "diffuseColor" || name == "reflectance")
+        }
+        if (name == "base_color" || name == "diffuseColor" || name == "reflectance") {
           EXPECT_NEAR(values[0], 0.03, 0.01) << name;
+        }
       }
       EXPECT_LT(e.written.rms, 0.1);
     }
