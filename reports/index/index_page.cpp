@@ -194,7 +194,7 @@ Part lead(const ReportIndex& i) {
   std::string text =
       "The error that each shortcut leaves against exact Fresnel, exact Smith masking and all "
       "bounces of light. "
-      "Its cost is what one float sample takes more than with the cheap form";
+      "The cost is the time that one float sample takes beyond the cheapest form";
   if (m && m->model_ns)
     text += fmt::format("; a whole GGX highlight takes {} ns", significant(*m->model_ns, 2));
   text += m ? fmt::format(". Measured on {} with {} from cache, {} setting.",

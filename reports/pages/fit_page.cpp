@@ -243,8 +243,8 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
       "Parameters",
       fmt::format(
           "Values are written to the second digit of their standard error. Intervals: "
-          "{}{}. A bar stands around its value; what goes on beyond the picture has an "
-          "arrow, and a limit begins in the middle.{}",
+          "{}{}. Each bar is an interval around the value in the picture's middle. An "
+          "arrow marks a bar that goes on beyond it; a limit to one side begins there.{}",
           d.intervals, d.clusters > 0 ? fmt::format(", {} clusters", count_text(d.clusters)) : "",
           with_truth ? " The table is synthetic: the orange tick is the value it was made with."
                      : ""),

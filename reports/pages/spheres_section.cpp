@@ -139,12 +139,10 @@ std::string how(const Spheres& s) {
       "Front light: three lights on the viewer's side. Rim light: one of these, and two from "
       "behind "
       "the sphere. Flash: one, 10° above the viewer. White is the table's 99th percentile of "
-      "luminance under each light. Covered: share of the lit pixels for which the table has values "
-      "between its samples, or, where it is a list, a sample within {}° of both directions, "
-      "mirrored "
-      "or swapped.{} Only spacing: the difference between the fit and the fit known at the "
-      "table's "
-      "samples only.",
+      "luminance under each light. Covered: share of the lit pixels whose value the table gives "
+      "by interpolation; a list needs a sample within {}° of both directions, mirrored or "
+      "swapped.{} Only spacing: the difference between the fit itself and the fit sampled where "
+      "the table is, and interpolated in between.",
       Spheres::reach_deg,
       colours
           ? std::string()
