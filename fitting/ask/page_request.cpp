@@ -72,10 +72,7 @@ std::string compare_for_page(const PageRequest& r,
 /// The document, and the values that the page draws: also of parameters that the document has none of, being one of many.
 Json fit_for_page(const FitResult& r) {
   Json optimum = Json::object();
-  for (const auto& p : r.model.model.parameters) {
-    const auto first = r.model.values.begin() + static_cast<std::ptrdiff_t>(p.first);
-    optimum[p.name] = std::vector<double>(first, first + static_cast<std::ptrdiff_t>(p.count));
-  }
+  for (const auto& [name, values] : named_values(r.model)) optimum[name] = values;
   return {{"document", to_json(r.document)}, {"optimum", std::move(optimum)}};
 }
 

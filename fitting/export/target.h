@@ -50,7 +50,7 @@ struct Target {
 extern const Target gltf_target, mitsuba_target, standard_surface_target, open_pbr_target,
     usd_preview_target;
 
-/// What a distance between two f is relative to: f, or where that is larger the f of a matte surface that returns about as much light,
+/// Scale of a distance between two f: f, or where that is larger the f of a matte surface that returns about as much light,
 ///
 ///   (kd + Σ weight F_avg)/π   with F_avg of Schlick's approximation
 ///

@@ -39,9 +39,7 @@ std::vector<double> brightness_of(TexelSample s, TexelOptions by_ratios) {
   for (int turn = 0; turn < most; ++turn) {
     const auto f_r = predicted(s, fit_sample(s, by_ratios), task);
     for (std::size_t i = 0; i < s.images; ++i) {
-      std::vector<double> off;
-      for (std::size_t t = 0; t < s.texels; ++t)
-        for (const double d : differences(s, i, t, f_r, Metric::log)) off.push_back(d);
+      std::vector<double> off = differences(s, i, f_r, Metric::log);
       const double middle = off.empty() ? 0 : median_of(std::move(off));
       logarithms[i] += middle;
       scale_image(s, i, std::exp(-middle));
@@ -57,9 +55,7 @@ std::vector<std::size_t> loudest(const TexelSample& s,
                                  const std::vector<double>& f_r) {
   std::vector<double> loud(s.images);
   for (const std::size_t i : images) {
-    std::vector<double> off;
-    for (std::size_t t = 0; t < s.texels; ++t)
-      for (const double d : differences(s, i, t, f_r, Metric::log)) off.push_back(d);
+    const auto off = differences(s, i, f_r, Metric::log);
     loud[i] = off.empty() ? 0 : rms_of_all(off);
   }
   std::ranges::stable_sort(images, std::ranges::greater{}, [&](std::size_t i) { return loud[i]; });
@@ -68,12 +64,13 @@ std::vector<std::size_t> loudest(const TexelSample& s,
   return images;
 }
 
-std::optional<OtherExposure> other_exposure(const TexelSample& s, const TexelOptions& o) {
+std::optional<OtherExposure> other_exposure(const TexelSample& s,
+                                            const TexelOptions& o,
+                                            const TexelFit& given) {
   const auto bright = brightness_of(s, o);
   std::vector<std::size_t> order(s.images);
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::ranges::sort(order, {}, [&](std::size_t i) { return bright[i]; });
-  const TexelFit given = fit_sample(s, o);
   // Two groups, cut where the brightness leaps most.
   std::size_t cut = 1;
   const auto leap = [&](std::size_t k) { return bright[order[k]] - bright[order[k - 1]]; };
@@ -100,8 +97,9 @@ std::optional<OtherExposure> other_exposure(const TexelSample& s, const TexelOpt
   return found;
 }
 
-std::optional<Exchanged> exchanged_images(const TexelSample& s, const TexelOptions& o) {
-  const TexelFit given = fit_sample(s, o);
+std::optional<Exchanged> exchanged_images(const TexelSample& s,
+                                          const TexelOptions& o,
+                                          const TexelFit& given) {
   const auto before = residual_deviations(given), least = residual_floor(given);
   std::vector<std::size_t> all(s.images);
   std::iota(all.begin(), all.end(), std::size_t{0});

@@ -19,7 +19,10 @@ struct OtherExposure {
 };
 /// Looks for two exposures: brightness is fitted by image, and images whose brightness forms two groups are put right and fitted again.  None where that
 /// leaves more than half of the rms.
-std::optional<OtherExposure> other_exposure(const TexelSample&, const TexelOptions&);
+/// \param given  fit of the sample as it is
+std::optional<OtherExposure> other_exposure(const TexelSample&,
+                                            const TexelOptions&,
+                                            const TexelFit& given);
 
 /// Two images that stand for each other.
 struct Exchanged {
@@ -27,7 +30,9 @@ struct Exchanged {
   double ratio = 1;  ///< as above
 };
 /// Exchanges each two of the images that differ most from what a fit says.  None where that leaves more than half of the rms.
-std::optional<Exchanged> exchanged_images(const TexelSample&, const TexelOptions&);
+std::optional<Exchanged> exchanged_images(const TexelSample&,
+                                          const TexelOptions&,
+                                          const TexelFit& given);
 
 /// The images whose logarithms differ most from what a fit says, 16 at most.
 std::vector<std::size_t> loudest(const TexelSample&,

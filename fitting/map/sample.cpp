@@ -158,6 +158,16 @@ std::vector<double> differences(const TexelSample& s,
   return all;
 }
 
+std::vector<double> differences(const TexelSample& s,
+                                std::size_t image,
+                                const std::vector<double>& f_r,
+                                Metric metric) {
+  std::vector<double> all;
+  for (std::size_t t = 0; t < s.texels; ++t)
+    for (const double d : differences(s, image, t, f_r, metric)) all.push_back(d);
+  return all;
+}
+
 double rms_of_all(const std::vector<double>& all) {
   double sum = 0;
   for (const double x : all) sum += x * x;

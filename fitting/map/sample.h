@@ -67,6 +67,11 @@ std::vector<double> differences(const TexelSample&,
                                 std::size_t texel,
                                 const std::vector<double>& f_r,
                                 Metric);
+/// Those of all texels of an image.
+std::vector<double> differences(const TexelSample&,
+                                std::size_t image,
+                                const std::vector<double>& f_r,
+                                Metric);
 double rms_of_all(const std::vector<double>&);
 /// Part of the residuals' squares that texels share with those of the next block, the median: near 1 where the model or an image is off, 0 where chance
 /// makes as much, nothing is left that a camera resolves, or too few texels tell.

@@ -160,26 +160,19 @@ std::vector<OddImage> odd_images(TexelSample s, TexelOptions by_ratios) {
     TexelSample less = s;
     leave_out(less, image);
     const auto f_r = predicted(s, fit_sample(less, by_ratios), task);
-    const auto off = [&](std::size_t i, Metric metric) {
-      std::vector<double> all;
-      for (std::size_t t = 0; t < s.texels; ++t)
-        for (const double d : differences(s, i, t, f_r, metric)) all.push_back(d);
-      return all;
-    };
-    const auto ratios = off(image, Metric::log);
+    const auto off = [&](std::size_t i) { return differences(s, i, f_r, Metric::l2_cosine); };
+    const auto ratios = differences(s, image, f_r, Metric::log);
     const double middle = median_of(ratios);
     const auto to_its_side = static_cast<double>(
         std::ranges::count_if(ratios, [&](double x) { return (x > 0) == (middle > 0); }));
     const auto values = static_cast<double>(least->texels * s.channels);
     std::vector<double> light;
     for (const std::size_t i : left)
-      if (const double of = rms_of_all(off(i, Metric::l2_cosine)); of >= 0) light.push_back(of);
+      if (const double of = rms_of_all(off(i)); of >= 0) light.push_back(of);
     const bool to_one_side = to_its_side > 0.9 * static_cast<double>(ratios.size()) &&
                              static_cast<double>(ratios.size()) > 0.8 * values &&
                              std::abs(middle) > 0.3;
-    if (!to_one_side &&
-        !(rms_of_all(off(image, Metric::l2_cosine)) > 3 * median_of(std::move(light))))
-      break;
+    if (!to_one_side && !(rms_of_all(off(image)) > 3 * median_of(std::move(light)))) break;
     odd.push_back({image, least->ratio, std::exp(middle)});
     s = std::move(less);
     std::erase(left, image);
@@ -197,10 +190,11 @@ void blame_images(const TexelSample& s, const TexelOptions& o, StackSurvey& foun
     } catch (const Error&) {
       continue;
     }
-    const auto exposure = other_exposure(s, as);
+    const TexelFit given = fit_sample(s, as);
+    const auto exposure = other_exposure(s, as, given);
     if (exposure && (!found.exposure || exposure->ratio < found.exposure->ratio))
       found.exposure = exposure;
-    const auto exchanged = exchanged_images(s, as);
+    const auto exchanged = exchanged_images(s, as, given);
     if (exchanged && (!found.exchanged || exchanged->ratio < found.exchanged->ratio))
       found.exchanged = exchanged;
   }

@@ -117,7 +117,7 @@ function show_fit(text, table) {
     make("div", { class: "controls" }, saver("Save as JSON", `${table.name}.fit.json`, text)));
   $("fitted").hidden = false;
 }
-/// What a fit that came as a document says, beside a table.
+/// Shows the sentences of a fit that came as a document, where a table is beside it.
 function show_document(data) {
   const table = can_fit && data?.document && fit_pair()?.[0];
   if (table) show_fit(data.document, table);

@@ -343,6 +343,31 @@ bool is_term_name(const std::string& name) {
          });
 }
 
+namespace {
+
+/// Differences of a comparison as they come: the largest goes into it with its place.
+class Differences {
+ public:
+  explicit Differences(TermComparison& c) : of_(c) {}
+  /// One that is no number is left out.
+  void take(double d, std::span<const Parameter> parameters, const Values& at, const Row& row) {
+    if (!std::isfinite(d)) return;
+    squares_ += d * d;
+    ++count_;
+    if (!(d > of_.largest)) return;
+    of_.largest = d;
+    of_.at = auditing::joined(auditing::text(parameters, at), auditing::text(row));
+  }
+  double rms() const { return count_ ? std::sqrt(squares_ / static_cast<double>(count_)) : 0; }
+
+ private:
+  TermComparison& of_;
+  double squares_ = 0;
+  std::size_t count_ = 0;
+};
+
+}  // namespace
+
 TermComparison compare_terms(const std::string& a,
                              const std::string& b,
                              const std::vector<std::pair<std::string, Range>>& domain) {
@@ -384,8 +409,7 @@ TermComparison compare_terms(const std::string& a,
     constexpr std::size_t places = 9;
     const auto& rows = auditing::rows_of(*role);
     const auto width_a = width_of(own.parameters), width_b = width_of(other.parameters);
-    double sum = 0;
-    std::size_t count = 0;
+    Differences differences(c);
     for (std::size_t k = 0; k < places; ++k) {
       std::vector<double> p, q;
       for (const auto& w : own.parameters) {
@@ -401,8 +425,7 @@ TermComparison compare_terms(const std::string& a,
         if (same != own.parameters.end()) {
           v = p[static_cast<std::size_t>(same - own.parameters.begin())];
         } else if (width_b == j && width_a) {
-          const bool rough_a = own.parameters[*width_a].name.find("ough") != std::string_view::npos;
-          const bool rough_b = w.name.find("ough") != std::string_view::npos;
+          const bool rough_a = is_rough(own.parameters[*width_a].name), rough_b = is_rough(w.name);
           v = p[*width_a];
           v = rough_a && !rough_b ? v * v : rough_b && !rough_a ? std::sqrt(v) : v;
         }
@@ -411,19 +434,12 @@ TermComparison compare_terms(const std::string& a,
       const auto f = shown_in(Number::double_, x, p, rows),
                  g = shown_in(Number::double_, y, q, rows);
       const double scale = *role == Role::ndf ? *std::ranges::max_element(g) : 1;
-      for (std::size_t i = 0; i < rows.size(); ++i) {
-        const double d = std::abs(f[i] - g[i]) / scale;
-        if (!std::isfinite(d)) continue;
-        sum += d * d;
-        ++count;
-        if (d > c.largest)
-          c.largest = d,
-          c.at = auditing::joined(auditing::text(own.parameters, p), auditing::text(rows[i]));
-      }
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        differences.take(std::abs(f[i] - g[i]) / scale, own.parameters, p, rows[i]);
     }
     static constexpr std::string_view measures[] = {"D over the peak", "G2", "F", "f"};
     c.measure = measures[static_cast<std::size_t>(*role)];
-    c.rms = count ? std::sqrt(sum / static_cast<double>(count)) : 0;
+    c.rms = differences.rms();
     c.operations_a = operations_of(x).sample.total();
     c.operations_b = operations_of(y).sample.total();
     if (!best || c.largest < best->largest) {
@@ -457,8 +473,7 @@ TermComparison compare_with_model(const std::string& own,
   c.a = own, c.b = spec, c.measure = "f over its own value";
   constexpr std::size_t places = 9;
   const auto& rows = auditing::rows_of(Role::diffuse);
-  double sum = 0;
-  std::size_t count = 0;
+  Differences differences(c);
   BoundModel model = bind_model(spec, {}, 1);
   for (std::size_t k = 0; k < places; ++k) {
     std::vector<double> p;
@@ -473,23 +488,13 @@ TermComparison compare_with_model(const std::string& own,
     }
     for (const auto& q : model.model.parameters)
       for (std::size_t j = 0; j < p.size(); ++j)
-        if (const auto& w = entry.parameters[j]; stands_for(q.name, w)) {
-          const bool is_rough =
-              q.name == "alpha" && lowered(std::string(w.name)).find("rough") != std::string::npos;
-          model.values[q.first] = is_rough ? p[j] * p[j] : p[j];
-        }
+        if (const auto& w = entry.parameters[j]; stands_for(q.name, w))
+          model.values[q.first] = q.name == "alpha" && is_rough(w.name) ? p[j] * p[j] : p[j];
     const auto f = values_in(Number::double_, term, p, rows), g = evaluate(model, rows)[0];
-    for (std::size_t i = 0; i < rows.size(); ++i) {
-      const double d = std::abs(f[i] / g[i] - 1);
-      if (!std::isfinite(d)) continue;
-      sum += d * d;
-      ++count;
-      if (d > c.largest)
-        c.largest = d,
-        c.at = auditing::joined(auditing::text(entry.parameters, p), auditing::text(rows[i]));
-    }
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      differences.take(std::abs(f[i] / g[i] - 1), entry.parameters, p, rows[i]);
   }
-  c.rms = count ? std::sqrt(sum / static_cast<double>(count)) : 0;
+  c.rms = differences.rms();
   c.operations_a = operations_of(*foreign_term(term)->function, 3).total();
   c.operations_b = operations_of(compose(spec, 3)).total();
   c.half_a = in_half(term, domain);

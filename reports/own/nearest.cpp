@@ -34,10 +34,6 @@ std::string plain_name(std::string_view name) {
     if (c != '_') s += lower_case(c);
   return s;
 }
-bool is_rough(std::string_view name) {
-  return plain_name(name).find("rough") != std::string::npos;
-}
-
 bool is_exponent(std::string_view name) {
   const auto n = plain_name(name);
   return n.find("shin") != n.npos || n.find("expo") != n.npos || n == "n" || n == "power" ||
@@ -154,6 +150,10 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
 }
 
 }  // namespace
+
+bool is_rough(std::string_view name) {
+  return plain_name(name).find("rough") != std::string::npos;
+}
 
 std::vector<double> values_between(const Parameter& p, std::size_t count) {
   Range r = p.legal;

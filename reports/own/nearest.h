@@ -31,6 +31,9 @@ struct NearestForm {
   std::optional<Range> norms;
 };
 
+/// Whether a parameter's name says roughness, whose square alpha is.
+bool is_rough(std::string_view name);
+
 /// Model of the catalogue whose highlight a whole function has.
 struct NearestModel {
   std::string spec;
@@ -43,7 +46,7 @@ struct NearestModel {
 };
 /// The model whose D V F is the function's, with its other colours dark, but for a factor; none where none is, or where widths and f0 have no usual names.
 std::optional<NearestModel> nearest_model(std::size_t foreign_term);
-/// What a factor of a highlight says is missing; "" of 1.
+/// The likely mistakes in its factor and its width, a sentence each.
 std::vector<std::string> likely_slips(const NearestModel&);
 
 /// The nearest form of the same role; none where nothing has a value that can be compared.

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "reports/page/spheres.h"
 #include "reports/scenes/scenes.h"
 #include "scene/plan/samples.h"
 #include "scene/surface/effect.h"
@@ -19,6 +20,8 @@ std::string_view name_of_effect(scene::Effect);
 
 /// Steps that a byte of a picture's differences has to ΔE2000 1.
 inline constexpr double steps_of_difference = 50;
+/// Course of its colours: to what the tolerance allows at the quantile, and to the most.
+page::DifferenceScale difference_scale(const scene::Tolerance&);
 /// Picture of a lit scene, with all effects and as planned.  \param planned  by material  \param pixels  width and height
 ScenePicture picture_of(const scene::Lit&,
                         std::span<const scene::Forms> planned,

@@ -60,7 +60,7 @@ std::string speed(double ratio) {
   return ratio < 1 ? times(1 / ratio) + " as slow" : times(ratio) + " as fast";
 }
 
-/// What the plan was found to differ by, in the material that differs most.
+/// How far the plan was found to be off, in the material that differs most.
 std::string found(const scene::Plan& p, std::string_view unit) {
   const auto upper = [](const scene::MaterialPlan& m) {
     return m.bounded ? m.checked.upper : m.checked.quantile;
@@ -133,9 +133,7 @@ Section spheres(const scene::Scene& s, const scene::Plan& p) {
     forms.push_back(at == p.materials.end() ? lit.looks[forms.size()].exact() : at->forms);
   }
   const auto made = scenes::picture_of(lit, forms, pixels, samples);
-  const bool relative = p.tolerance.metric == scene::Metric::relative;
-  const DifferenceScale scale{scenes::steps_of_difference, relative ? 1 : p.tolerance.limit,
-                              relative ? 4 : p.tolerance.max, false};
+  const auto scale = scenes::difference_scale(p.tolerance);
   return {"All effects, as planned, and the difference",
           "",
           {Markup{sphere_keys(scale) + R"(<div class="scene">)" +

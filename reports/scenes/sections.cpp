@@ -65,21 +65,19 @@ Section plans(const ScenesRows& all) {
 }
 
 // --- Pictures
-DifferenceScale scale_of(const scene::Tolerance& t) {
-  return {scenes::steps_of_difference, t.limit, t.max, false};
-}
 std::string triple(const ScenePicture& p, const scene::Tolerance& t) {
   const auto of = [&](const char* how) {
     return fmt::format("{} under {}, {}", p.material, p.light, how);
   };
-  return sphere_figure(fmt::format("{}, ΔE up to {}", capital(p.light), delta(p.worst)), p.pixels,
-                       {{p.everything, of("everything on")},
-                        {p.planned, of("as planned")},
-                        {difference_png(p.difference, p.pixels, scale_of(t)), of("difference")}});
+  return sphere_figure(
+      fmt::format("{}, ΔE up to {}", capital(p.light), delta(p.worst)), p.pixels,
+      {{p.everything, of("everything on")},
+       {p.planned, of("as planned")},
+       {difference_png(p.difference, p.pixels, scenes::difference_scale(t)), of("difference")}});
 }
 Section spheres(const ScenesRows& all) {
   const auto& t = all.tolerance;
-  std::string html = sphere_keys(scale_of(t));
+  std::string html = sphere_keys(scenes::difference_scale(t));
   for (const auto& m : unique(all.rows, &SceneRow::material)) {
     html += fmt::format(R"(<div class="spheres"><h3>{}</h3>)", markup_text(capital(m)));
     for (const auto& p : all.pictures)

@@ -34,6 +34,11 @@ bool shows_object(const Lit& lit, std::size_t x, std::size_t y, std::size_t pixe
 
 }  // namespace
 
+page::DifferenceScale difference_scale(const Tolerance& t) {
+  if (t.metric == Metric::relative) return {steps_of_difference, 1, 4, false};
+  return {steps_of_difference, t.limit, t.max, false};
+}
+
 ScenePicture picture_of(const Lit& lit,
                         std::span<const Forms> planned,
                         std::size_t pixels,

@@ -38,7 +38,7 @@ std::string from_text(const StabilityRow& r) {
   return r.safe_from ? fmt::format("{} {}", r.decides, rounded_up(*r.safe_from))
                      : "no " + r.decides;
 }
-/// What a search has not refuted is not established.
+/// Doubt that a search leaves, which refutes and does not establish.
 std::string_view evidence_text(const StabilityRow& r) {
   return r.evidence == stability::Evidence::searched ? ", as far as a search found" : "";
 }

@@ -67,7 +67,7 @@ Json json_of(const FileFunction& of) {
   return j;
 }
 
-/// What a person says of a file's functions, by what is used of it.
+/// Reading that a person asks for of a file's functions, and which words of it were used.
 struct Said {
   const foreign::Reading& all;
   std::set<std::string> used{};

@@ -76,16 +76,16 @@ ExportResidual distance(const F& target, const F& fit, const Folder& f) {
   ExportResidual r;
   if (target.size() != fit.size()) return {-1, -1, {}};
   double sum = 0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    std::vector<double> of_channel;
-    for (const auto& x : fit) of_channel.push_back(x[c]);
-    const auto scale = scale_of(std::vector(3, of_channel), like)[c];
+  std::vector<std::vector<double>> channels(3);
+  for (const auto& x : fit)
+    for (std::size_t c = 0; c < 3; ++c) channels[c].push_back(x[c]);
+  const auto scale = scale_of(channels, like);
+  for (std::size_t c = 0; c < 3; ++c)
     for (std::size_t i = 0; i < fit.size(); ++i) {
-      const double d = std::abs(target[i][c] - fit[i][c]) / scale[i];
+      const double d = std::abs(target[i][c] - fit[i][c]) / scale[c][i];
       sum += d * d;
       r.largest = std::max(r.largest, d);
     }
-  }
   r.rms = std::sqrt(sum / static_cast<double>(3 * fit.size()));
   return r;
 }

@@ -283,6 +283,13 @@ Table with_elevations(const Table& t, bool incident, bool outgoing) {
   return turned;
 }
 
+double theta_h_of(const Angles<double>& a) {
+  return std::asin(std::sqrt(std::clamp(a.sin2_theta_h, 0.0, 1.0)));
+}
+double theta_d_of(const Angles<double>& a) {
+  return std::acos(std::clamp(a.voh, 0.0, 1.0));
+}
+
 /// True where the highlight falls towards grazing, where those of all surfaces rise: samples at the same θ_h are compared.
 bool highlight_falls(TableFacts& facts) {
   const auto& peak = facts.peak().peak;
@@ -293,11 +300,10 @@ bool highlight_falls(TableFacts& facts) {
   std::map<long, std::vector<std::pair<double, double>>> ridge;  // by θ_h: θ_d [°] and f
   for (std::size_t i = 0; i < t.size(); ++i) {
     const auto a = at(i);
-    const double theta_h_deg = std::asin(std::sqrt(std::min(a.sin2_theta_h, 1.0))) / degree;
+    const double theta_h_deg = theta_h_of(a) / degree;
     if (!(theta_h_deg < peak->half_width_deg)) continue;
     if (const double f = value_of_all(t, a, i); f > 0)
-      ridge[std::lround(theta_h_deg / alike_deg)].emplace_back(
-          std::acos(std::clamp(a.voh, 0.0, 1.0)) / degree, f);
+      ridge[std::lround(theta_h_deg / alike_deg)].emplace_back(theta_d_of(a) / degree, f);
   }
   std::vector<double> ratios;
   std::size_t compared = 0;
@@ -326,12 +332,11 @@ double scatter(const Table& t) {
     const auto a = at(i);
     const double f = value_of_all(t, a, i);
     if (!(f > 0) || !(std::min(a.nol, a.nov) > grazing)) continue;
-    const double theta_h = std::asin(std::sqrt(std::clamp(a.sin2_theta_h, 0.0, 1.0))),
-                 theta_d = std::acos(std::clamp(a.voh, 0.0, 1.0));
     const auto place = [](double part, std::size_t n) {
       return std::min(static_cast<std::size_t>(part * static_cast<double>(n)), n - 1);
     };
-    cells[place(std::sqrt(theta_h / (pi / 2)), rows) * columns + place(theta_d / (pi / 2), columns)]
+    cells[place(std::sqrt(theta_h_of(a) / (pi / 2)), rows) * columns +
+          place(theta_d_of(a) / (pi / 2), columns)]
         .push_back(std::log(f));
   }
   double squares = 0, freedom = 0;

@@ -252,13 +252,19 @@ TEST(Survey, OfFewTexelsOrImagesKnowsNothing) {
   EXPECT_TRUE(std::isnan(look(made_up(1, Loud::none, 2)).noise.most));
 }
 
-/// Photographs of waves, given without their normals.
-gonio::Stack waves(const Folder& f) {
+/// A map of normals with none in it.
+Image without_normals() {
   Image normals;
   normals.width = map_width;
   normals.height = map_height;
   normals.channels = {"X", "Y", "Z"};
   normals.planes.resize(3);
+  return normals;
+}
+
+/// Photographs of waves, given without their normals.
+gonio::Stack waves(const Folder& f) {
+  Image normals = without_normals();
   for (std::size_t t = 0; t < map_width * map_height; ++t) {
     const auto u = 0.3F * static_cast<float>(t % map_width),
                v = -0.2F * static_cast<float>(t / map_width);
@@ -384,11 +390,7 @@ TEST(Survey, NamesNoOrderOfTheImagesThatOnlyHelps) {
 
 TEST(Survey, OfAStackOfFilesIsOfRowsAllOverItAlsoOfLightAndNormals) {
   const Folder f;
-  Image normals;
-  normals.width = map_width;
-  normals.height = map_height;
-  normals.channels = {"X", "Y", "Z"};
-  normals.planes.resize(3);
+  Image normals = without_normals();
   for (std::size_t t = 0; t < map_width * map_height; ++t) {
     const float x = 0.5F * std::sin(0.7F * static_cast<float>(t % map_width)),
                 y = 0.5F * std::sin(0.9F * static_cast<float>(t / map_width));
