@@ -130,8 +130,8 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
           values.std_error,
           angles,
           angles,
-          stated ? "the wider of clustered by incident angle and stated uncertainties"
-                 : "the wider of clustered by incident angle and independent values"};
+          stated ? "the wider of two: clustered by incident angle, stated uncertainties"
+                 : "the wider of two: clustered by incident angle, independent values"};
 }
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.

@@ -114,7 +114,7 @@ function restore(text) {
   for (const name of ["theta", "phi", "phid", "ev", "channel"]) if (Number.isFinite(s.w?.[name])) view[name] = s.w[name];
   view.theta = clamp(view.theta, 0, 89), view.channel = clamp(Math.trunc(view.channel), 0, 2);
   for (const name of ["log", "slog"]) if (typeof s.w?.[name] === "boolean") view[name] = s.w[name];
-  if (catalogue.lights.includes(s.w?.lamp)) view.lamp = s.w.lamp;
+  if (lamps().includes(s.w?.lamp)) view.lamp = s.w.lamp;
   if (Array.isArray(s.w?.turn) && s.w.turn.length === 2 && s.w.turn.every(Number.isFinite)) view.turn = s.w.turn;
   if (Array.isArray(s.w?.light) && s.w.light.length === 3 && s.w.light.every(Number.isFinite) && Math.hypot(...s.w.light) > 1e-3) view.light = s.w.light;
   dirty.light = true, show_all();
@@ -493,9 +493,23 @@ function put(id, size) {
 }
 // A perfect diffuser, lit from above, is white at exposure 0.
 const exposure = () => Math.PI * 2 ** view.ev;
+const lamps = () => [...catalogue.lights, ...catalogue.wide_lights], wide_lamp = () => catalogue.wide_lights.indexOf(view.lamp);
 function draw_spheres() {
-  if (dirty.light) checked(view.lamp ? g.sphere_under(sphereSize, catalogue.lights.indexOf(view.lamp)) : g.sphere(sphereSize, ...view.light));
-  for (const [item, i] of drawn()) if (dirty.light || dirty.all || dirty.items.has(item)) checked(g.draw(item.handle, sphereSize, exposure(), room.rgba)), put(`sphere-${i}`, sphereSize);
+  // Under a light that extends, spheres are compared under the first that does not.
+  if (dirty.light) checked(view.lamp ? g.sphere_under(sphereSize, Math.max(catalogue.lights.indexOf(view.lamp), 0)) : g.sphere(sphereSize, ...view.light));
+  for (const [item, i] of drawn()) {
+    if (!dirty.light && !dirty.all && !dirty.items.has(item)) continue;
+    if (wide_lamp() >= 0) checked(g.wide_sphere(item.handle, sphereSize, wide_lamp())), item.passes = 0;
+    else checked(g.draw(item.handle, sphereSize, exposure(), room.rgba)), put(`sphere-${i}`, sphereSize), item.passes = catalogue.passes;
+  }
+  gather();
+}
+let gathering = 0;
+/// Light that extends is gathered, a pass more with each frame.
+function gather() {
+  cancelAnimationFrame(gathering);
+  for (const [item, i] of drawn()) if (item.passes < catalogue.passes) item.passes = checked(g.gather(item.handle, exposure(), room.rgba)), put(`sphere-${i}`, sphereSize);
+  gathering = drawn().some(([item]) => item.passes < catalogue.passes) ? requestAnimationFrame(safely(gather)) : 0;
 }
 function draw_slices() {
   for (const [item, i] of drawn()) {
@@ -507,7 +521,7 @@ function draw_slices() {
 function sphere_words(model, table) {
   checked(g.sphere_difference(model.handle, table.handle, exposure(), room.f));
   const [median, p95, covered] = numbers(room.f, 3);
-  return covered > 0.3 ? ` Their spheres differ by ΔE2000 ${median.toFixed(1)}, 95 % of the pixels by at most ${p95.toFixed(1)}.` : "";
+  return covered > 0.3 ? ` Their spheres differ${wide_lamp() < 0 ? "" : ` under ${catalogue.lights[0]}`} by ΔE2000 ${median.toFixed(1)}, 95 % of the pixels by at most ${p95.toFixed(1)}.` : "";
 }
 /// What is on screen in words.
 function show_facts() {
@@ -521,7 +535,7 @@ function show_facts() {
     for (const table of items) if (comparable(table)) {
       checked(g.difference(model.handle, table.samples, room.f, room.rgba)), put(`ratio-${items.indexOf(table)}`, mapSize);
       const [n, typical, worst, h, d] = numbers(room.f, 5);
-      lines.push(n ? `${model.name} beside ${table.name}: typical factor ×/÷ ${typical.toFixed(3)}; worst place θh ${degrees(h)}, θd ${degrees(d)}, where the model is ${worst > 1 ? `${shown(Number(worst.toPrecision(3)))} times too bright` : `${shown(Number((1 / worst).toPrecision(3)))} times too dark`}.${sphere_words(model, table)}` : `${model.name} and ${table.name} have no value in common.`);
+      lines.push(n ? `${model.name} beside ${table.name}: typical factor ×/÷ ${typical.toFixed(3)} over ${n} values; worst place θh ${degrees(h)}, θd ${degrees(d)}, where the model is ${worst > 1 ? `${shown(Number(worst.toPrecision(3)))} times too bright` : `${shown(Number((1 / worst).toPrecision(3)))} times too dark`}.${sphere_words(model, table)}` : `${model.name} and ${table.name} have no value in common.`);
     }
   }
   $("facts").replaceChildren(...lines.map((line) => make("p", {}, line)));
@@ -591,7 +605,7 @@ function connect() {
   addEventListener("resize", () => redraw());
   addEventListener("hashchange", safely(() => { if (location.hash !== own_address) from_address(), finish(); }));
 
-  $("copy-spec").onclick = () => copy(command());
+  $("copy-spec").onchange = () => { copy(commands[$("copy-spec").value]()), $("copy-spec").value = ""; };
   $("copy-fit").onclick = () => copy(fit_command());
   $("copy-json").onclick = () => copy(document_text());
   $("copy-address").onclick = () => copy(location.href);
@@ -636,6 +650,12 @@ function command() {
   const at = cuts.angles[nearest(cuts.angles, cursor ?? view.theta)], turned = at < 0 ? 0 : 180;
   return `printf 'theta_i,phi_i,theta_o,phi_o\\n${view.theta},${view.phi},${Math.abs(at)},${view.phi + turned}\\n' > directions.csv\ngonio eval ${model_words()} --directions directions.csv --json`;
 }
+const commands = {
+  values: command,
+  shader: () => `gonio shader ${model_words()} --language glsl`,
+  gltf: () => exported("gltf", "gltf"), mitsuba: () => exported("mitsuba", "xml"), open_pbr: () => exported("open_pbr", "mtlx"),
+};
+const exported = (target, ending) => `printf '%s' '${JSON.stringify(JSON.parse(document_text()))}' > model.json\ngonio export model.json --to ${target} -o model.${ending}`;
 /// Fits the model that is moved to the first table beside it.
 function fit_command() {
   const word = (name, text = name.startsWith("-") ? `./${name}` : name) => (/^[\w./+,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
@@ -697,7 +717,7 @@ function from_address() {
     await start();
     checked(g.catalogue());
     catalogue = JSON.parse(answer());
-    $("lamp").append(make("option", { value: "" }, "one, where you drag it"), ...catalogue.lights.map((name) => make("option", { value: name }, name)));
+    $("lamp").append(make("option", { value: "" }, "one, where you drag it"), ...lamps().map((name) => make("option", { value: name }, name)));
     page.items.forEach((data, place) => { if (data.kind === "table") tables.push({ ...hold_table(data), place }); });
     document.querySelector(".explorer").hidden = false;
     say("");

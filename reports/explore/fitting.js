@@ -123,8 +123,8 @@ function show_document(data) {
   if (table) show_fit(data.document, table);
 }
 async function fit_table(model) {
-  const [table, item] = fit_pair(), spec = model ?? item.about.spec;
-  const { document: text, optimum } = JSON.parse(await ask({ do: "fit", file: page.items[table.place].name, options: { ...asked_words(), model: [spec] } }, await files_of(table)));
+  const [table, item] = fit_pair(), words = asked_words(), spec = model ?? words.model?.join(" ") ?? item.about.spec;
+  const { document: text, optimum } = JSON.parse(await ask({ do: "fit", file: page.items[table.place].name, options: { ...words, model: [spec] } }, await files_of(table)));
   const other = JSON.parse(text).input?.sha256, own = page.items[table.place].sha256;
   take_fit(fitted(text, spec === item.about.spec ? item.name : spec, page.items[table.place], optimum), item), show_fit(text, table);
   say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.` : "Fitted.");

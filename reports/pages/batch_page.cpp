@@ -425,7 +425,7 @@ std::string batch_page_html(const BatchSummary& s, const std::string& title) {
   out.setting = fmt::format(
       "Made with `{}`. f_r is in 1/sr, without the cosine. alpha is the width of the distribution, "
       "roughness = √alpha. Every figure of this page is in summary.page.json and, as a table, in "
-      "summary.csv.",
+      "summary.csv. With sliders: `gonio explore TABLE NAME.json -o explore.html`.",
       s.made_with);
   return page_html(out, pictures);
 }

@@ -132,12 +132,12 @@ Points warnings(const FitDocument& d,
         if (std::abs(x) > std::abs(most)) name = of, most = x;
     const auto here = log_rms_text(d.residuals.log_rms), there = log_rms_text(s.log_rms);
     if (std::abs(most) > 0.01)
-      warn("Bin convention matters:",
-           fmt::format("with samples at the {} of their bins, {} changes most, by {}{}.", s.other,
-                       name, signed_percent(most),
-                       here == there
-                           ? ""
-                           : fmt::format("; the log RMS would be {} instead of {}", there, here)));
+      warn(
+          "Where samples sit in their bins matters:",
+          fmt::format(
+              "at the {} of their bins, {} would change by {}{}.", s.other, name,
+              signed_percent(most),
+              here == there ? "" : fmt::format(", and the log RMS {} instead of {}", there, here)));
   }
   for (auto& w : table_warnings(t, h, &d.warnings)) out.each.push_back(std::move(w));
   return out;

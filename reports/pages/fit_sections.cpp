@@ -220,19 +220,20 @@ Section albedo(const FitDocument& d, Pictures& pictures) {
 Section search(const FitDocument& d, Pictures& pictures) {
   if (!d.certificate) return {};
   const auto& c = *d.certificate;
-  constexpr auto title = "Whether another optimum lies lower";
+  constexpr auto title = "Whether other values fit better";
   if (c.cells.empty())
     return {title, "No width, exponent or index is free: nothing was searched.", {}};
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
-      "{} over {}, all other parameters solved for anew in each on a thinned table; those within 1 "
-      "% "
-      "of the lowest again with all values. {} the fit: the lowest costs {}, the fit {}.{} This is "
+      "The other parameters were fitted anew at {} of {}, each on a part of the table, and the "
+      "best "
+      "places on all of it. {} than the fit: the best place has the cost {}, the fit {}.{} This is "
       "a "
       "search, not a proof.",
-      many(c.cells.size(), "cell"), fmt::join(c.parameters, " and "),
-      lies ? "None lies below" : "One lies below", significant(c.lowest, 6), significant(d.cost, 6),
-      c.moves > 0 ? fmt::format(" The fit went on {} from a place that was lower.",
+      many(c.cells.size(), "place"), fmt::join(c.parameters, " and "),
+      lies ? "No place fits better" : "A place fits better", significant(c.lowest, 6),
+      significant(d.cost, 6),
+      c.moves > 0 ? fmt::format(" The fit went on {} from a place that was better.",
                                 many(static_cast<std::size_t>(c.moves), "time"))
                   : "");
   double least = c.thinned_cost;
@@ -401,14 +402,15 @@ Section input(const FitDocument& d) {
   return {
       "Input",
       "",
-      {Pairs{
-          {{"file", "`" + d.input_path + "`"},
-           {"SHA-256", "`" + d.input_sha256 + "`"},
-           {"format", d.input_format},
-           {"bins", d.bins == "none" ? "none: samples are points"
-                                     : fmt::format("samples at the {} of their bins", d.bins)},
-           {"values used", count_text(d.values_used)},
-           {"left out", left_out.empty() ? "none" : fmt::to_string(fmt::join(left_out, ", "))}}}}};
+      {Pairs{{{"file", "`" + d.input_path + "`"},
+              {"SHA-256", "`" + d.input_sha256 + "`"},
+              {"format", d.input_format},
+              {"bins", d.bins == "none" ? "none: samples are points"
+                                        : fmt::format("samples at the {} of their bins", d.bins)},
+              {"values used", count_text(d.values_used)},
+              {"left out", left_out.empty() ? "none" : fmt::to_string(fmt::join(left_out, ", "))},
+              {"with sliders", fmt::format("`gonio explore {} fit.json -o explore.html`",
+                                           shell_word(file_name(d.input_path)))}}}}};
 }
 
 }  // namespace gonio::fit_sections

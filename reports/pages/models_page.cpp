@@ -482,7 +482,11 @@ std::string ModelsSections::html() {
            {"one fit of it",
             compared_.empty() ? ""
                               : fmt::format("`gonio fit {} --model {} -o fit.json --html fit.html`",
-                                            file, taken().row.model)}}}}};
+                                            shell_word(file), taken().row.model)},
+           {"with sliders", compared_.empty()
+                                ? ""
+                                : fmt::format("`gonio explore {} {} -o explore.html`",
+                                              shell_word(file), taken().row.model)}}}}};
   Section meanings{
       "What the words mean",
       "",

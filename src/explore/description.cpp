@@ -5,7 +5,7 @@
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
-#include "explore/surface.h"
+#include "explore/sphere.h"
 #include "optics/refractive_index.h"
 
 #include <nlohmann/json.hpp>
@@ -80,9 +80,11 @@ std::string catalogue_json() {
   }
   for (const auto& m : metals())
     known_metals.push_back({{"symbol", text(m.symbol)}, {"name", text(m.name)}});
-  Json lights = Json::array();
+  Json lights = Json::array(), wide = Json::array();
   for (const auto& l : sphere_lights()) lights.push_back(text(l.name));
-  return Json{{"terms", terms}, {"models", models}, {"metals", known_metals}, {"lights", lights}}
+  for (const auto& l : wide_lights()) wide.push_back(text(l.name));
+  return Json{{"terms", terms},   {"models", models},    {"metals", known_metals},
+              {"lights", lights}, {"wide_lights", wide}, {"passes", WideSphere::passes}}
       .dump();
 }
 

@@ -7,7 +7,6 @@
 #include <numbers>
 
 #include "base/error.h"
-#include "base/quantile.h"
 #include "base/text.h"
 #include "image/display.h"
 #include "integrate/albedo/directional_albedo.h"
@@ -18,7 +17,6 @@ namespace gonio::explore {
 namespace {
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
-const double grazing = std::sin(5 * degree);
 
 /// The same width under the names that an isotropic and an anisotropic model have for it.
 std::string other_width(std::string_view name) {
@@ -239,77 +237,6 @@ void paint_ratio(const Difference& d, std::span<unsigned char> rgba) {
           static_cast<unsigned char>(std::lround(even[k] + std::abs(off) * (end[k] - even[k])));
     rgba[4 * i + 3] = known ? 255 : 0;
   }
-}
-
-Sphere::Sphere(std::size_t pixels, std::span<const Direction> towards)
-    : lit_(towards, pixels), columns_(lit_.points.size(), true) {
-  for (std::size_t i = 0; i < lit_.points.size(); ++i)
-    columns_.set(i, frame_angles(lit_.points[i].at));
-}
-
-void Sphere::draw(const Surface& s, double exposure, std::span<unsigned char> rgba) const {
-  const std::size_t n = lit_.points.size();
-  std::vector<float> radiance(3 * lit_.inside.size(), 0.0f);
-  const auto add = [&](const auto& f) {  // by channel and point
-    for (std::size_t c = 0; c < 3; ++c) {
-      const auto* const channel = f(c);
-      for (std::size_t i = 0; i < n; ++i)
-        radiance[3 * lit_.points[i].pixel + c] +=
-            static_cast<float>(static_cast<double>(channel[i]) * lit_.points[i].at.wi.z * exposure);
-    }
-  };
-  if (const auto* m = s.model()) {
-    const std::vector<float> values(m->values.begin(), m->values.end());
-    Evaluator<float> evaluator(m->model);
-    evaluator.set(values);
-    std::vector<Column<float>> f;
-    std::vector<float*> out;
-    for (std::size_t c = 0; c < m->model.channels; ++c)
-      out.push_back(f.emplace_back(columns_.padded()).data());
-    evaluator(columns_.block(), out);
-    add([&](std::size_t c) { return out[out.size() == 3 ? c : 0]; });
-  } else {
-    std::vector<DirectionPair> at;
-    at.reserve(n);
-    for (const auto& p : lit_.points) at.push_back(p.at);
-    Channels f = s(at);
-    for (auto& channel : f)
-      for (std::size_t i = 0; i < n; ++i)
-        if (std::isnan(channel[i]) && at[i].wi.z < grazing) channel[i] = 0;
-    add([&](std::size_t c) { return f[f.size() == 3 ? c : 0].data(); });
-  }
-  for (std::size_t i = 0; i < lit_.inside.size(); ++i) {
-    bool known = lit_.inside[i];
-    for (std::size_t c = 0; c < 3; ++c) {
-      const float l = radiance[3 * i + c];
-      known &= !std::isnan(l);
-      rgba[4 * i + c] =
-          std::isnan(l) ? static_cast<unsigned char>(0) : quick_byte(static_cast<double>(l));
-    }
-    rgba[4 * i + 3] = known ? 255 : 0;
-  }
-}
-
-SphereDifference Sphere::difference(const Surface& s,
-                                    const Surface& reference,
-                                    double exposure) const {
-  constexpr std::size_t step = 7;  // of odd rows and columns alike
-  std::vector<DirectionPair> at;
-  for (std::size_t i = 0; i < lit_.points.size(); i += step) at.push_back(lit_.points[i].at);
-  const Channels a = s(at), b = reference(at);
-  const auto radiance = [&](const Channels& f, std::size_t i) {
-    Rgb l;
-    for (std::size_t c = 0; c < 3; ++c) l[c] = f[f.size() == 3 ? c : 0][i] * at[i].wi.z;
-    return l;
-  };
-  std::vector<double> all;
-  for (std::size_t i = 0; i < at.size(); ++i)
-    if (const double d = displayed_difference(radiance(a, i), radiance(b, i), exposure);
-        std::isfinite(d))
-      all.push_back(d);
-  if (all.empty()) return {};
-  const double covered = static_cast<double>(all.size()) / static_cast<double>(at.size());
-  return {median(all), quantile(all, 0.95), covered};
 }
 
 Channels albedo(const Surface& s, std::span<const double> theta_deg, bool with_furnace) {

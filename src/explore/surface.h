@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What the page of `gonio explore` asks of a model or a table: curves, slices, spheres and albedos as plain numbers.
+/// What the page of `gonio explore` asks of a model or a table: curves, slices and albedos as plain numbers.
 /// It is compiled twice: as a part of the program, where tests hold it, and as WebAssembly, which the page runs
 /// (src/explore/module). No formula stands here.
 
@@ -15,7 +15,6 @@
 
 #include "brdf/model/evaluate.h"
 #include "brdf/model/model.h"
-#include "image/lit_sphere.h"
 #include "table/table.h"
 
 namespace gonio::explore {
@@ -104,28 +103,6 @@ std::array<std::vector<double>, 2> measured_and_modelled(const Surface& model,
 /// Bytes of that map as paint() gives them: white where they agree, blue where the model is too dark, orange where it is too
 /// bright, full at a factor of 2.
 void paint_ratio(const Difference&, std::span<unsigned char> rgba);
-
-struct SphereDifference {
-  double median = 0, p95 = 0;  ///< ΔE2000
-  double covered =
-      0;  ///< share of the pixels looked at; 0 without any, and then the others are 0, too
-};
-
-/// A sphere under directional lights of equal irradiance, prepared once for many surfaces.
-class Sphere {
- public:
-  /// \param towards  the lights, in the viewer's frame: x to the right, y up, z to the viewer
-  Sphere(std::size_t pixels, std::span<const Direction> towards);
-  /// Bytes of its radiance over one light's irradiance, exposed; transparent beside the sphere and where a table has no value. Where
-  /// light grazes, at less than 5°, little arrives and tables end: no value is 0 there.
-  void draw(const Surface&, double exposure, std::span<unsigned char> rgba) const;
-  /// ΔE2000 between two spheres as a display shows them, over every seventh pixel and light where both are known.
-  SphereDifference difference(const Surface&, const Surface& reference, double exposure) const;
-
- private:
-  LitSphere lit_;
-  AngleColumns<float> columns_;
-};
 
 /// Share of the light from each zenith angle [°] that the model reflects; with `furnace` what its first lobe alone would reflect
 /// with F = 1, so that one less this is the energy lost between facets. NaN where the integral diverges, or there is no lobe.

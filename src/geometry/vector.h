@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "geometry/direction.h"
+#include "geometry/sampling.h"
 
 namespace gonio {
 
@@ -37,6 +38,18 @@ inline Vector vector_of(const Direction& d) {
 inline Direction direction(const Vector& a) {
   const double l = length(a);
   return {a.x / l, a.y / l, a.z / l};
+}
+
+/// Frame around a normal with a tangent's part across it; where that has none, with any tangent.
+inline Frame frame_along(const Direction& normal, const Vector& tangent, double turn = 0) {
+  const Vector across = tangent - dot(tangent, vector_of(normal)) * vector_of(normal);
+  Frame f(normal, turn);
+  if (!(length(across) > 1e-6)) return f;
+  const Vector t = vector_of(direction(across)), b = cross(vector_of(normal), t);
+  const double c = std::cos(turn), s = std::sin(turn);
+  f.x = direction(c * t + s * b);
+  f.y = direction(c * b - s * t);
+  return f;
 }
 
 }  // namespace gonio

@@ -12,27 +12,6 @@
 
 namespace gonio {
 
-double Environment::theta(double y) const {
-  return std::numbers::pi * y / static_cast<double>(height);
-}
-
-double Environment::phi(double x) const {
-  return std::numbers::pi * (1 - 2 * x / static_cast<double>(width));
-}
-
-Rgb Environment::texel(std::size_t i, std::size_t j) const {
-  const auto& l = radiance[j * width + i];
-  return {double{l[0]}, double{l[1]}, double{l[2]}};
-}
-
-std::array<std::size_t, 2> Environment::texel_at(const Direction& d) const {
-  const auto index = [](double part, std::size_t n) {
-    return std::min(static_cast<std::size_t>(part * static_cast<double>(n)), n - 1);
-  };
-  return {index((1 - phi_of(d) / std::numbers::pi) / 2, width),
-          index(theta_of(d) / std::numbers::pi, height)};
-}
-
 Environment read_environment(const std::string& path) {
   constexpr std::size_t most = std::size_t{8192} * 4096 * 3;
   const Image header = read_exr_header(path);

@@ -2,8 +2,10 @@
 /// \file
 /// Light from all around, as a map over latitude and longitude.
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -31,11 +33,20 @@ struct Environment {
   std::vector<std::array<float, 3>> radiance;  ///< [j * width + i]
   std::size_t negative = 0;                    ///< values that were, and are 0
 
-  double theta(double y) const;
-  double phi(double x) const;
-  Rgb texel(std::size_t i, std::size_t j) const;
+  double theta(double y) const { return std::numbers::pi * y / static_cast<double>(height); }
+  double phi(double x) const { return std::numbers::pi * (1 - 2 * x / static_cast<double>(width)); }
+  Rgb texel(std::size_t i, std::size_t j) const {
+    const auto& l = radiance[j * width + i];
+    return {double{l[0]}, double{l[1]}, double{l[2]}};
+  }
   /// Numbers i, j of the texel that lies in a direction.
-  std::array<std::size_t, 2> texel_at(const Direction&) const;
+  std::array<std::size_t, 2> texel_at(const Direction& d) const {
+    const auto index = [](double part, std::size_t n) {
+      return std::min(static_cast<std::size_t>(part * static_cast<double>(n)), n - 1);
+    };
+    return {index((1 - phi_of(d) / std::numbers::pi) / 2, width),
+            index(theta_of(d) / std::numbers::pi, height)};
+  }
   Rgb operator()(const Direction& d) const {
     const auto [i, j] = texel_at(d);
     return texel(i, j);

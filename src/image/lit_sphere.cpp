@@ -5,24 +5,6 @@
 #include "geometry/vector.h"
 
 namespace gonio {
-namespace {
-
-/// A viewer's direction in the frame of a surface there.
-struct SurfaceFrame {
-  Vector x, y, z;
-
-  /// \param normal  not straight up or down
-  explicit SurfaceFrame(const Vector& normal) : z(normal) {
-    x = vector_of(direction(Vector{z.z, 0, -z.x}));
-    y = cross(z, x);
-  }
-  Direction operator()(const Direction& d) const {
-    const Vector v = vector_of(d);
-    return {dot(x, v), dot(y, v), dot(z, v)};
-  }
-};
-
-}  // namespace
 
 const std::array<SphereLight, 3>& sphere_lights() {
   static const std::array<SphereLight, 3> all{
@@ -36,21 +18,26 @@ const std::array<SphereLight, 3>& sphere_lights() {
   return all;
 }
 
+std::optional<Frame> sphere_frame(std::size_t pixels, std::size_t pixel) {
+  const auto place = [&](std::size_t k) {
+    return ((2 * static_cast<double>(k) + 1) / static_cast<double>(pixels) - 1) / LitSphere::radius;
+  };
+  const double x = place(pixel % pixels), y = -place(pixel / pixels), z2 = 1 - x * x - y * y;
+  if (!(z2 > 0)) return {};
+  const Direction normal{x, y, std::sqrt(z2)};
+  return frame_along(normal, {normal.z, 0, -normal.x});
+}
+
 LitSphere::LitSphere(std::span<const Direction> towards_lights, std::size_t size)
     : pixels(size), inside(size * size) {
-  constexpr Direction viewer{0, 0, 1};
   constexpr double horizon = 1e-9;
   for (std::size_t i = 0; i < inside.size(); ++i) {
-    const auto place = [&](std::size_t k) {
-      return ((2 * static_cast<double>(k) + 1) / static_cast<double>(size) - 1) / radius;
-    };
-    const double x = place(i % size), y = -place(i / size), z2 = 1 - x * x - y * y;
-    inside[i] = z2 > 0;
-    if (!inside[i]) continue;
-    const SurfaceFrame into({x, y, std::sqrt(z2)});
-    const Direction wo = into(viewer);
+    const auto frame = sphere_frame(size, i);
+    inside[i] = frame.has_value();
+    if (!frame) continue;
+    const Direction wo = frame->inside(towards_viewer);
     for (const Direction& light : towards_lights)
-      if (const Direction wi = into(light); wi.z > horizon && wo.z > horizon)
+      if (const Direction wi = frame->inside(light); wi.z > horizon && wo.z > horizon)
         points.push_back({i, {wi, wo}});
   }
 }

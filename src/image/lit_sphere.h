@@ -4,11 +4,13 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
 
 #include "geometry/direction.h"
+#include "geometry/sampling.h"
 #include "image/environment.h"
 
 namespace gonio {
@@ -22,6 +24,13 @@ struct SphereLight {
 /// Front light: three on the viewer's side; rim light: one of these, and two from behind; flash: one 10° above the viewer.
 const std::array<SphereLight, 3>& sphere_lights();
 
+/// Where the viewer of such a sphere is.
+inline constexpr Direction towards_viewer{0, 0, 1};
+
+/// Frame of the sphere in the middle of a pixel, row by row from the top, of a picture so many pixels wide and high; none
+/// beside the sphere.  Its tangent lies level, to the right where the sphere faces the viewer.
+std::optional<Frame> sphere_frame(std::size_t pixels, std::size_t pixel);
+
 /// Directions in which one light meets the surface in the middle of a pixel.
 struct LitPoint {
   std::size_t pixel;  ///< row by row from the top
@@ -29,7 +38,7 @@ struct LitPoint {
 };
 
 /// Pixels of a sphere and the light on them.  The sphere casts no shadow on itself but on its far side, so a pixel asks for
-/// no more than f of one pair of directions a light.  Its tangent lies level, to the right where the sphere faces the viewer.
+/// no more than f of one pair of directions a light.
 struct LitSphere {
   static constexpr double radius = 0.96;  ///< of half a picture's width
 

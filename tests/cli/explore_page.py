@@ -98,7 +98,7 @@ def facts(page):
     said = page.ask("document.getElementById('facts').innerText")
     fit = json.loads((folder / "fit.json").read_text())
     typical = 2.718281828459045 ** fit["residuals"]["log_rms"]
-    word = said.split("typical factor ×/÷ ")[1].split(";")[0]
+    word = said.split("typical factor ×/÷ ")[1].split(" ")[0]
     expect(abs(float(word) - typical) < 0.01, f"the page's typical factor {word} beside the fit's {typical}")
 
 
@@ -182,6 +182,19 @@ def drags(page):
     page.ask("choose(document.getElementById('lamp'), 'rim light')")
     settle(page)
     expect(page.ask("look('sphere-1')") != picture, "other lights")
+    seen = [page.ask("look('sphere-1')")]
+    for lamp in page.ask("catalogue.wide_lights"):
+        page.ask(f"choose(document.getElementById('lamp'), '{lamp}')")
+        settle(page)
+        early = page.ask("[items[1].passes, look('sphere-1')]")
+        page.wait("drawn().every(([item]) => item.passes === catalogue.passes)")
+        seen.append(page.ask("look('sphere-1')"))
+        expect(early[0] < 256 and early[1] != seen[-1], f"a picture under {lamp} converges while it is watched, from {early[0]} passes on")
+        expect(seen[-1]["colours"] > 100, f"and is drawn: {seen[-1]}")
+        page.wait("document.getElementById('facts').innerText.includes('under front light')")
+    expect(len({one["sum"] for one in seen}) == len(seen), "each light makes another picture")
+    page.ask("choose(document.getElementById('lamp'), 'rim light')")
+    settle(page)
     page.wait("solid !== null")
     before = page.ask("picture_of('#lobe canvas')")
     expect(before["colours"] > 30, f"the lobe in space is drawn, in {before} colours")
@@ -223,6 +236,12 @@ def copies(page):
     for f, values in zip(evaluated(words, rows), shown):
         for a, b in zip(values, f):
             near(a, b, "the model copied")
+    for what in page.ask("Object.keys(commands)"):
+        page.ask(f"choose($('copy-spec'), '{what}')")
+        line = page.ask("$('copied').value")
+        done = subprocess.run(line.replace("gonio ", f"'{gonio}' "), shell=True, cwd=folder, capture_output=True, text=True)
+        expect(line and done.returncode == 0, f"the command copied for {what}, {line}: {done.stderr}")
+        expect(page.ask("$('copy-spec').value") == "", "and the menu is as before")
     fit = page.ask("fit_command()")
     done = subprocess.run(fit.replace("gonio", f"'{gonio}'", 1) + " --quiet", shell=True, cwd=folder, capture_output=True, text=True)
     expect(done.returncode == 0 and "gonio.fit/1" in (folder / "fit.json").read_text(), f"{fit}: {done.stderr}")

@@ -92,47 +92,6 @@ TEST(Surface, PaintedIsWhatADisplayShowsAndTransparentWhereNothingIsKnown) {
   EXPECT_EQ(rgba[0], std::lround(255 * 0.75));
 }
 
-TEST(Surface, SphereIsThatOfTheReports) {
-  const Surface s = glossy();
-  for (const auto& lights : sphere_lights()) {
-    const LitSphere lit(lights.towards, 32);
-    std::vector<unsigned char> rgba(4 * 32 * 32, 7);
-    Sphere(32, lights.towards).draw(s, 3, rgba);
-    std::vector<FrameAngles<double>> x;
-    for (const auto& p : lit.points) x.push_back(frame_angles(p.at));
-    const auto f = evaluate(*s.model(), x);
-    std::vector<Rgb> rgb;
-    for (std::size_t i = 0; i < x.size(); ++i) rgb.push_back({f[0][i], f[1][i], f[2][i]});
-    const auto radiance = lit.radiance(rgb);
-    for (std::size_t i = 0; i < radiance.size(); ++i) {
-      const auto bytes = displayed_bytes(radiance[i], 3);
-      for (std::size_t c = 0; c < 3; ++c)
-        EXPECT_NEAR(rgba[4 * i + c], bytes[c], 2) << lights.name << i;
-      EXPECT_EQ(rgba[4 * i + 3], lit.inside[i] ? 255 : 0);
-    }
-  }
-}
-
-TEST(Surface, SpheresDifferByWhatADisplayShows) {
-  const Direction light = direction(Vector{0.5, 0.6, 0.62});
-  const Sphere sphere(48, std::span(&light, 1));
-  const Surface s = glossy(), red("lambert", "kd=0.5,0.1,0.1", 3),
-                brighter("lambert", "kd=0.55,0.11,0.11", 3);
-  const auto none = sphere.difference(s, s, 3);
-  EXPECT_EQ(none.median, 0);
-  EXPECT_EQ(none.covered, 1);
-  const auto d = sphere.difference(brighter, red, 3);
-  // A Lambertian sphere: the brightest pixel is the colour itself.
-  const double most = displayed_difference({0.55 / 3.1415927, 0.11 / 3.1415927, 0.11 / 3.1415927},
-                                           {0.5 / 3.1415927, 0.1 / 3.1415927, 0.1 / 3.1415927}, 3);
-  EXPECT_GT(d.median, 0.3 * most);
-  EXPECT_LT(d.median, d.p95);
-  EXPECT_NEAR(d.p95, most, 0.1 * most);
-  Table t = test::filled(page_grid({12, 9, 6}), test::glossy());
-  for (auto& channel : t.values) std::fill(channel.begin(), channel.end(), NAN);
-  EXPECT_EQ(sphere.difference(s, Surface(std::move(t)), 3).covered, 0);
-}
-
 TEST(Surface, OfATableHasItsValuesAtItsSamplesAndNoneWhereItHasNone) {
   Table t = test::filled(page_grid({30, 20, 12}), test::glossy());
   const SampleAngles at(t);

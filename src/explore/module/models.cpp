@@ -8,7 +8,7 @@
 
 #include "base/error.h"
 #include "brdf/model/roughness.h"
-#include "explore/surface.h"
+#include "explore/sphere.h"
 #include "exports.h"
 
 namespace {
@@ -17,6 +17,7 @@ using namespace gonio;
 
 std::vector<std::unique_ptr<explore::Surface>> surfaces;
 std::unique_ptr<explore::Sphere> sphere;
+std::vector<std::unique_ptr<explore::WideSphere>> wide;  // by surface
 
 template <class Body>
 int guarded(const Body& body) {
@@ -37,6 +38,7 @@ explore::Surface& at(int number) {
 
 int add(explore::Surface s) {
   surfaces.push_back(std::make_unique<explore::Surface>(std::move(s)));
+  wide.emplace_back();
   return static_cast<int>(surfaces.size()) - 1;
 }
 
@@ -73,7 +75,7 @@ int page_table(
 }
 GONIO_EXPORT(drop) void page_drop(int s) {
   if (s >= 0 && static_cast<std::size_t>(s) < surfaces.size())
-    surfaces[static_cast<std::size_t>(s)] = nullptr;
+    surfaces[static_cast<std::size_t>(s)] = nullptr, wide[static_cast<std::size_t>(s)] = nullptr;
 }
 GONIO_EXPORT(swap_model) int page_swap(int s, const char* spec) {
   return guarded([&] { return at(s).swap_model(spec), 0; });
@@ -178,6 +180,26 @@ GONIO_EXPORT(draw) int page_draw(int s, std::size_t pixels, double exposure, uns
   return guarded([&] {
     if (!sphere) throw wrong_usage("no sphere is prepared");
     return sphere->draw(at(s), exposure, {rgba, 4 * pixels * pixels}), 0;
+  });
+}
+/// Begins a surface's sphere under the light that extends of that number.
+GONIO_EXPORT(wide_sphere) int page_wide(int s, std::size_t pixels, std::size_t light) {
+  return guarded([&] {
+    at(s);
+    wide[static_cast<std::size_t>(s)] = std::make_unique<explore::WideSphere>(pixels, light);
+    return 0;
+  });
+}
+/// One pass more of it; answers how many there are.
+GONIO_EXPORT(gather) int page_gather(int s, double exposure, unsigned char* rgba) {
+  return guarded([&] {
+    const auto& surface = at(s);
+    auto& lit = wide[static_cast<std::size_t>(s)];
+    if (!lit) throw wrong_usage("no sphere is prepared");
+    const auto done = lit->gather(surface);
+    const auto radiance = lit->radiance();
+    explore::paint(radiance, exposure, false, {rgba, 4 * radiance[0].size()});
+    return static_cast<int>(done);
   });
 }
 /// \param to  median and 95 % quantile of ΔE2000, and the share of the pixels that are known

@@ -112,19 +112,6 @@ void shade(const RTCOccludedFunctionNArguments* a) {
   if (way_to_sphere(a) < double{t}) t = -std::numeric_limits<float>::infinity();
 }
 
-/// Frame around a normal with a tangent's part across it; where that has none, with any tangent.
-Frame frame_along(const Direction& normal, const Vector& tangent, double turn) {
-  const Vector across = tangent - dot(tangent, vector_of(normal)) * vector_of(normal);
-  Frame f(normal, turn);
-  if (!(length(across) > 1e-6)) return f;
-  const Vector t = vector_of(direction(across)), b = cross(vector_of(normal), t);
-  const double c = std::cos(turn), s = std::sin(turn);
-  const Vector x = c * t + s * b, y = c * b - s * t;
-  f.x = {x.x, x.y, x.z};
-  f.y = {y.x, y.y, y.z};
-  return f;
-}
-
 /// Greatest coordinate of the cameras.
 double reach(const View& view) {
   if (const auto* camera = std::get_if<Camera>(&view)) return greatest(camera->position);
