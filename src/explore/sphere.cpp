@@ -188,7 +188,8 @@ std::size_t WideSphere::gather(const Surface& s) {
   const auto f = values(s, points, columns_of(points));
   for (std::size_t c = 0; c < f.size(); ++c)
     for (std::size_t i = 0; i < points.size(); ++i)
-      sums_[c][points[i].pixel] += static_cast<double>(f[c][i]) * weights[i];
+      if (!std::isnan(f[c][i]))
+        sums_[c][points[i].pixel] += static_cast<double>(f[c][i]) * weights[i];
   return ++done_;
 }
 

@@ -55,7 +55,8 @@ class WideSphere {
   WideSphere(std::size_t pixels, std::size_t light);
   /// One more direction for each pixel, drawn as `gonio render` draws it; answers how many passes were gathered.
   std::size_t gather(const Surface&);
-  /// Mean radiance of the passes, by channel and pixel; NaN beside the sphere and where a table has no value.
+  /// Mean radiance of the passes, by channel and pixel; NaN beside the sphere. Light from where a table has no value is
+  /// left out.
   Channels radiance() const;
 
  private:

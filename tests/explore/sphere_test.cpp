@@ -13,7 +13,7 @@
 namespace gonio::explore {
 namespace {
 
-Surface glossy() {
+Surface red_plastic() {
   return {"lambert+ggx/smith_ggx.correlated/schlick",
           "alpha=0.3 kd=0.2,0.1,0.05 f0=0.04,0.05,0.06",
           {}};
@@ -59,14 +59,15 @@ Channels summed(const Surface& s, std::size_t pixels, const scene::Light& light)
     const Channels f = s(at);
     for (std::size_t c = 0; c < f.size(); ++c) {
       l[c][i] = 0;
-      for (std::size_t k = 0; k < at.size(); ++k) l[c][i] += f[c][k] * weight[k];
+      for (std::size_t k = 0; k < at.size(); ++k)
+        if (!std::isnan(f[c][k])) l[c][i] += f[c][k] * weight[k];
     }
   }
   return l;
 }
 
 TEST(Sphere, IsThatOfTheReports) {
-  const Surface s = glossy();
+  const Surface s = red_plastic();
   for (const auto& lights : sphere_lights()) {
     const LitSphere lit(lights.towards, 32);
     std::vector<unsigned char> rgba(4 * 32 * 32, 7);
@@ -89,7 +90,7 @@ TEST(Sphere, IsThatOfTheReports) {
 TEST(Sphere, DiffersFromAnotherByWhatADisplayShows) {
   const Direction light = direction(Vector{0.5, 0.6, 0.62});
   const Sphere sphere(48, std::span(&light, 1));
-  const Surface s = glossy(), red("lambert", "kd=0.5,0.1,0.1", 3),
+  const Surface s = red_plastic(), red("lambert", "kd=0.5,0.1,0.1", 3),
                 brighter("lambert", "kd=0.55,0.11,0.11", 3);
   const auto none = sphere.difference(s, s, 3);
   EXPECT_EQ(none.median, 0);
@@ -111,7 +112,7 @@ TEST(WideSphere, ConvergesToTheSumOverItsLight) {
   const Surface table(test::filled(page_grid({45, 30, 36}), test::glossy()));
   for (std::size_t light = 0; light < wide_lights().size(); ++light)
     for (const Surface* s : {&table, static_cast<const Surface*>(nullptr)}) {
-      const Surface model = glossy();
+      const Surface model = red_plastic();
       const Surface& surface = s ? *s : model;
       const auto expected = summed(surface, pixels, wide_lights()[light].scene.lights[0]);
       WideSphere sphere(pixels, light);
@@ -133,12 +134,13 @@ TEST(WideSphere, ConvergesToTheSumOverItsLight) {
 }
 
 TEST(WideSphere, IsRightInTheMeanFromTheFirstPassOn) {
-  const Surface s = glossy();
+  const Surface s = red_plastic();
   for (std::size_t light = 0; light < wide_lights().size(); ++light) {
     WideSphere sphere(48, light);
     const auto sum = [&] {
+      const auto radiance = sphere.radiance();
       double all = 0;
-      for (const double l : sphere.radiance()[0]) all += std::isnan(l) ? 0 : l;
+      for (const double l : radiance[0]) all += std::isnan(l) ? 0 : l;
       return all;
     };
     sphere.gather(s);
@@ -152,7 +154,7 @@ TEST(WideLights, GiveAFacingWhiteSurfaceTheLightThatADisplayShowsAsWhite) {
   // A white diffuser facing an irradiance of 1 has the radiance 1/π.
   const Surface white("lambert", "kd=1", 1);
   for (const auto& light : wide_lights()) {
-    const auto l = summed(white, 64, light.scene.lights[0]);
+    const auto l = summed(white, 24, light.scene.lights[0]);
     double most = 0;
     for (const double v : l[0]) most = std::max(most, std::isnan(v) ? 0 : v);
     EXPECT_NEAR(most * std::numbers::pi, 1, 0.02) << light.name;

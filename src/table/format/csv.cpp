@@ -4,15 +4,13 @@
 #include <atomic>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
-#include <span>
 
 #include "base/error.h"
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "geometry/half_difference.h"
-#include "table/format/delimited.h"
+#include "table/format/csv_columns.h"
 #include "table/format/in_memory.h"
 #include "table/format/measured_by.h"
 
@@ -25,39 +23,8 @@
 namespace gonio {
 namespace {
 
-/// Of light and viewer.
-constexpr std::span<const std::string_view, 4> kAngles(angle_roles.begin(), 4);
-constexpr std::size_t half_roles = 4;  ///< place among angle_roles
 constexpr std::uint64_t kMostBytes =
     std::uint64_t{25} * most_values;  ///< as a table's numbers are written
-constexpr const char* kHint = "where names or angles differ: gonio columns FILE --map …";
-
-/// Channel of a column with values; of other names none.
-std::optional<std::string> channel_of(std::string_view name) {
-  if (name == "f") return "f";
-  if (name.starts_with("f_")) return std::string(name.substr(2));
-  return {};
-}
-
-std::string_view without_blanks(std::string_view name) {
-  constexpr std::string_view blanks = " \t\r\n";
-  const auto from = name.find_first_not_of(blanks);
-  return from == name.npos ? "" : name.substr(from, name.find_last_not_of(blanks) - from + 1);
-}
-
-/// The role that a column's name is: the blanks that a channel ends with are its own.
-std::string role_of(std::string_view name) {
-  const auto bare = without_blanks(name);
-  return std::string(bare.starts_with("f_") ? name.substr(name.find("f_")) : bare);
-}
-
-bool is_angle(std::string_view name) {
-  return std::ranges::find(kAngles, name) != kAngles.end();
-}
-/// Place among angle_roles, whose size for others.
-std::size_t angle_place(std::string_view role) {
-  return static_cast<std::size_t>(std::ranges::find(angle_roles, role) - angle_roles.begin());
-}
 
 using Text = std::vector<char, ArrayAllocator<char>>;
 
@@ -77,51 +44,11 @@ std::string_view view(const Text& text) {
   return {text.data(), text.size()};
 }
 
-std::string bracketed(double low, double high) {
-  return fmt::format("a number in [{:.4g}, {:.4g}]", low, high);
-}
-
-/// One thing that is read of each row.
-struct Column {
-  std::string role;
-  std::optional<std::size_t> index;  ///< else the constant
-  double constant = 0;
-  bool is_value = channel_of(role).has_value();
-  bool is_uncertainty = uncertainty_role(role).has_value();
-  double low = 0, high = std::numeric_limits<double>::max();  ///< of what is not a value
-
-  bool allows(double v) const {
-    return is_value || (is_uncertainty && std::isnan(v)) || (v >= low && v <= high);
-  }
-};
-
 /// Numbers of some rows, one after the other.
 struct Rows {
   std::size_t count = 0;
   std::vector<std::vector<double>> columns;  ///< [column][row]; empty for constants
   std::vector<std::string_view> channels;    ///< [row]; of text that has them in rows
-};
-
-/// Columns by their names, blanks around them apart.
-class Names {
- public:
-  explicit Names(const std::vector<std::string>& names) {
-    for (const auto& name : names) names_.push_back(without_blanks(name));
-    order_.resize(names_.size());
-    std::iota(order_.begin(), order_.end(), std::size_t{0});
-    std::ranges::stable_sort(order_, {}, [&](std::size_t k) { return names_[k]; });
-  }
-  /// Ascending.
-  std::span<const std::size_t> columns(std::string_view name) const {
-    const auto of = [&](std::size_t k) { return names_[k]; };
-    const auto word = without_blanks(name);
-    return {std::ranges::lower_bound(order_, word, {}, of),
-            std::ranges::upper_bound(order_, word, {}, of)};
-  }
-
- private:
-  std::vector<std::string_view> names_;
-  std::vector<std::size_t> order_;
 };
 
 /// Rows that differ in a channel's name alone become one sample; what repeats is another sample.
@@ -155,197 +82,47 @@ class Samples {
 class CsvReader {
  public:
   CsvReader(InputFile& in, const ColumnMap* map, bool needs_values)
-      : map_(map),
+      : map_(map ? *map : ColumnMap()),
         needs_values_(needs_values),
         path_(in.path()),
         text_(text_of(in)),
-        lines_(path_, view(text_), map ? map->skip : 0) {}
+        lines_(path_, view(text_), map_.skip),
+        columns_(map ? columns_by_map(lines_, path_, map_)
+                     : columns_by_name(lines_, path_, needs_values)) {}
 
   Table table() {
-    if (map_)
-      choose_by_map();
-    else
-      choose_by_name();
     read_rows();
     Table t;
     t.format = "csv";
     const bool small = angles_are_small();
     gather_columns(t);
-    if (header_) lay_out_matrix(t);
-    if (map_->radians)
+    if (columns_.header) lay_out_matrix(t);
+    if (map_.radians)
       for (auto& angle : angles_)
         for (double& a : angle) a /= degree;
-    for (const std::size_t k : elevations_)
+    for (const std::size_t k : columns_.elevations)
       for (double& a : angles_[k]) a = 90 - a;
-    if (has("theta_h")) from_half_angles();
+    if (columns_.has("theta_h")) from_half_angles();
     auto& [theta_i, phi_i, theta_o, phi_o, h, ph, d, pd] = angles_;
     DirectionList list{std::move(theta_i), std::move(phi_i), std::move(theta_o), std::move(phi_o)};
-    if (!has("theta_h")) to_conventions(list);
+    if (!columns_.has("theta_h")) to_conventions(list);
     t.where = std::move(list);
     to_f(t);
-    if (channel_) gather_channels(t);
+    if (columns_.channel) gather_channels(t);
     if (small)
       t.warnings.emplace_back(
           "no zenith angle is above 1.6°: if they are radians, gonio columns FILE --radians says "
           "so");
     // A grid of half and difference angles reaches below the horizon.
-    if (needs_values_ && !has("theta_h")) expect_light_from_above(path_, *t.list());
-    warn_of_directions(t, forward_deg());
+    if (needs_values_ && !columns_.has("theta_h")) expect_light_from_above(path_, *t.list());
+    warn_of_directions(t, map_.forward_deg);
     return t;
   }
 
  private:
-  void add(const std::string& role, std::optional<std::size_t> index, double constant = 0) {
-    roles_.insert(role);
-    Column c{.role = role, .index = index, .constant = constant};
-    const double turn = map_->radians ? degree * 180 : 180;
-    if (role.starts_with("theta_")) c.low = -turn, c.high = turn;
-    if (role.starts_with("phi_")) c.low = -2 * turn, c.high = 2 * turn;
-    if (map_->radians && angle_place(role) < angle_roles.size())
-      c.low *= 1 + 1e-6, c.high *= 1 + 1e-6;
-    if (c.is_uncertainty) c.low = std::numeric_limits<double>::min();
-    if (!c.allows(constant) && !index)
-      out_of_range(lines_, c, fmt::format("{:.6g}", constant), role);
-    columns_.push_back(std::move(c));
-  }
-
-  void choose_by_name() {
-    std::vector<std::string> roles;
-    for (const auto& name : lines_.names()) roles.push_back(role_of(name));
-    if (std::ranges::none_of(roles, is_angle))
-      lines_.fail("", fmt::format("columns {}", listed()),
-                  fmt::format("theta_i, phi_i, theta_o, phi_o and f or f_NAME; {}", kHint));
-    const auto named = [&](const char* name) {
-      return std::ranges::find(roles, name) != roles.end();
-    };
-    // In plane: azimuths 0.  A negative zenith angle is the other side.
-    const bool in_plane =
-        named("theta_i") && named("theta_o") && !named("phi_i") && !named("phi_o");
-    map_ = &usual_;
-    expect_few_channels(roles);
-    std::set<std::string> channels;
-    for (std::size_t k = 0; k < roles.size(); ++k) {
-      const auto& name = roles[k];
-      const auto channel = channel_of(name);
-      if (!channel && name != "weight" && !is_angle(name) && !uncertainty_role(name))
-        lines_.fail(
-            lines_.label(k), "an unknown column",
-            fmt::format("theta_i, phi_i, theta_o, phi_o, f, f_NAME, u_f, u_f_NAME or weight; {}",
-                        kHint));
-      if (has(name) || (channel && !channels.insert(*channel).second))
-        lines_.fail(name, "a second column of that name", "one");
-      add(name, k);
-    }
-    if (in_plane)
-      for (const auto* name : {"phi_i", "phi_o"}) add(name, {}, 0);
-    for (const auto name : kAngles)
-      if (!has(name))
-        lines_.fail(name, "no such column",
-                    fmt::format("theta_i, phi_i, theta_o, phi_o; {}", kHint));
-    if (needs_values_ && !has_values())
-      lines_.fail("f", "no such column", fmt::format("f or f_NAME; {}", kHint));
-  }
-
-  void expect_few_channels(const std::vector<std::string>& roles) const {
-    const auto channels =
-        std::ranges::count_if(roles, [](const auto& role) { return channel_of(role).has_value(); });
-    if (channels > static_cast<std::ptrdiff_t>(most_channels))
-      lines_.fail("", fmt::format("{} channels", channels),
-                  fmt::format("at most {}", most_channels));
-  }
-
-  void choose_by_map() {
-    const Names names(lines_.names());
-    std::set<std::size_t> used;
-    const auto take = [&](std::size_t index) { return used.insert(index).second; };
-    for (auto& [role, column] : expanded()) {
-      if (column.starts_with(elevation_mark) && (role == "theta_i" || role == "theta_o") &&
-          names.columns(column).empty()) {
-        column.erase(0, elevation_mark.size());
-        elevations_.push_back(angle_place(role));
-      }
-      if (column == in_header && angle_place(role) < angle_roles.size() &&
-          names.columns(column).empty()) {
-        if (header_)
-          throw bad_input(path_, "columns", fmt::format("{} and {} in the header", *header_, role),
-                          "one of them");
-        header_ = role;
-        roles_.insert(role);
-        continue;
-      }
-      const auto index = find(names, role, column);
-      if (index && !take(*index))
-        lines_.fail(column, "a column that is two things", "one of them for " + role);
-      if (role == "channel")
-        channel_ = index ? index : throw_no_column(role, column);
-      else
-        add(role, index, index ? 0 : *number_in(column));
-    }
-    std::vector<std::string> wanted;
-    const bool values_named = has_values() || header_, half = has("theta_h") || has("theta_d");
-    for (const auto& name : lines_.names()) {
-      auto role = role_of(name);
-      const auto u = uncertainty_role(role);
-      if (is_angle(role)
-              ? !half
-              : role == "weight" || (!values_named && channel_of(role)) ||
-                    (u && (!values_named || u->channel.empty() || has("f_" + u->channel))))
-        wanted.push_back(std::move(role));
-    }
-    expect_few_channels(wanted);
-    for (const auto& role : wanted)
-      if (const auto index = has(role) ? std::nullopt : find(names, role, role);
-          index && take(*index))
-        add(role, index);
-    using Names4 = std::array<const char*, 4>;
-    const auto [zenith, azimuth, other_zenith, other_azimuth] =
-        half ? Names4{"theta_h", "phi_h", "theta_d", "phi_d"}
-             : Names4{"theta_i", "phi_i", "theta_o", "phi_o"};
-    for (const auto* name : {zenith, other_zenith})
-      if (!has(name)) throw_no_column(name, name);
-    for (const auto* name : {azimuth, other_azimuth})
-      if (!has(name)) add(name, {}, 0);
-    for (const auto& c : columns_)
-      if (const auto at = angle_place(c.role);
-          at < angle_roles.size() && half != (at >= half_roles))
-        throw bad_input(path_, "columns", fmt::format("{} beside {}", c.role, zenith),
-                        "angles of light and viewer, or half and difference angles");
-    if (header_) add_matrix(used);
-    if (!has_values()) throw_no_column("f", "f");
-    std::set<std::string> channels;
-    for (const auto& c : columns_)
-      if (c.is_value && !channels.insert(*channel_of(c.role)).second)
-        throw bad_input(path_, "columns", "two channels named " + *channel_of(c.role), "one");
-    if (channel_ && std::ranges::count_if(columns_, &Column::is_value) > 1)
-      throw bad_input(path_, "columns", "channel beside several f_NAME", "channel beside one f");
-  }
-
-  /// Each column that is nothing else, and has a number in its name, has the values at that angle.
-  void add_matrix(const std::set<std::size_t>& used) {
-    if (has_values())
-      throw bad_input(path_, "columns", "f beside an angle in the header", "one of them");
-    std::vector<std::string> names = lines_.names();
-    if (std::ranges::all_of(names, &std::string::empty) && lines_.next())
-      names.assign(lines_.fields().begin(), lines_.fields().end());
-    for (std::size_t k = 0; k < names.size(); ++k) {
-      const auto signed_number = number_in(without_blanks(names[k]));
-      const auto angle = signed_number ? signed_number : only_number(names[k]);
-      if (used.contains(k) || !angle) continue;
-      add(fmt::format("f_#{}", k + 1), k);
-      header_angles_.push_back(*angle);
-      const double limit =
-          (header_->starts_with("theta_") ? 180 : 360) * (map_->radians ? degree * (1 + 1e-6) : 1);
-      if (!(std::abs(*angle) <= limit))
-        lines_.fail(lines_.label(k), fmt::format("{:.6g}", *angle),
-                    bracketed(-limit, limit) + " in the header, for " + *header_);
-    }
-    if (header_angles_.empty())
-      lines_.fail("", "no column with a number in its name", "one angle each for " + *header_);
-  }
-
   /// A row of a matrix becomes as many samples as it has values.
   void lay_out_matrix(Table& t) {
-    const std::size_t many = header_angles_.size();
+    const std::size_t many = columns_.header_angles.size();
     if (rows_ * many > most_values / 6)
       throw bad_input(path_, "columns", fmt::format("{} rows of {} values", rows_, many),
                       fmt::format("at most {} values", most_values / 6));
@@ -357,9 +134,9 @@ class CsvReader {
     };
     for (auto& angle : angles_) spread(angle);
     spread(t.weights);
-    auto& own = angles_[angle_place(*header_)];
+    auto& own = angles_[angle_place(*columns_.header)];
     for (std::size_t i = 0; i < rows_; ++i)
-      own.insert(own.end(), header_angles_.begin(), header_angles_.end());
+      own.insert(own.end(), columns_.header_angles.begin(), columns_.header_angles.end());
     for (auto* planes : {&t.values, &t.errors}) {
       if (planes->empty()) continue;
       Values all(rows_ * many);
@@ -382,98 +159,13 @@ class CsvReader {
     }
   }
 
-  /// What a pattern such as "U*nm" fixes.
-  struct Pattern {
-    std::string_view before, after;
-
-    bool matches(std::string_view name) const {
-      return name.size() > fixed() && name.starts_with(before) && name.ends_with(after);
-    }
-    std::size_t fixed() const { return before.size() + after.size(); }
-  };
-  static std::optional<Pattern> pattern(const std::pair<std::string, std::string>& said) {
-    const std::string_view word = said.second;
-    const auto star = word.find('*');
-    if (!said.first.ends_with("_*") || star == word.npos) return {};
-    return Pattern{word.substr(0, star), word.substr(star + 1)};
-  }
-
-  /// The map's words, with a column for each that a pattern such as f_*=*nm matches, and none matches that fixes more of
-  /// its name.
-  std::vector<std::pair<std::string, std::string>> expanded() const {
-    std::map<std::string_view, std::size_t> most_fixed;  // of a name
-    for (const auto& said : map_->columns)
-      if (const auto p = pattern(said))
-        for (const auto& whole : lines_.names())
-          if (const auto name = without_blanks(whole); p->matches(name))
-            most_fixed[name] = std::max(most_fixed[name], p->fixed());
-    std::vector<std::pair<std::string, std::string>> all;
-    for (const auto& said : map_->columns) {
-      const auto p = pattern(said);
-      if (!p) {
-        all.push_back(said);
-        continue;
-      }
-      const auto& [role, word] = said;
-      const std::size_t size = all.size();
-      for (const auto& whole : lines_.names()) {
-        const auto name = without_blanks(whole);
-        if (p->matches(name) && p->fixed() == most_fixed[name])
-          all.emplace_back(
-              role.substr(0, role.size() - 1) + std::string(without_blanks(name.substr(
-                                                    p->before.size(), name.size() - p->fixed()))),
-              std::string(name));
-      }
-      if (all.size() == size)
-        lines_.fail("", fmt::format("no column like '{}'", word),
-                    fmt::format("one of {}", listed()));
-      if (all.size() - size > most_channels)
-        lines_.fail("", fmt::format("{} channels", all.size() - size),
-                    fmt::format("at most {}", most_channels));
-    }
-    return all;
-  }
-
-  /// The column that a map's word means; none if it is a constant.
-  std::optional<std::size_t> find(const Names& by_name,
-                                  const std::string& role,
-                                  const std::string& word) const {
-    const auto& names = lines_.names();
-    if (const auto found = by_name.columns(word); !word.empty() && !found.empty()) {
-      if (found.size() > 1)
-        lines_.fail(word, "a second column of that name", "one, or its number as #1");
-      return found.front();
-    }
-    if (word.starts_with('#'))
-      if (const auto number = number_from<std::size_t>(std::string_view(word).substr(1));
-          number && *number > 0 && *number <= names.size())
-        return *number - 1;
-    if (!number_in(word)) throw_no_column(role, word);
-    return {};
-  }
-
-  [[noreturn]] std::optional<std::size_t> throw_no_column(const std::string& role,
-                                                          const std::string& word) const {
-    lines_.fail("", fmt::format("no column '{}' for {}", word, role),
-                fmt::format("one of {} (--skip N passes over lines above the names)", listed()));
-  }
-
-  std::string listed() const {
-    std::vector<std::string> labels;
-    for (std::size_t k = 0; k < lines_.names().size(); ++k) labels.push_back(lines_.label(k));
-    return fmt::format("{}", fmt::join(labels, ", "));
-  }
-
-  bool has(std::string_view role) const { return roles_.contains(role); }
-  bool has_values() const { return std::ranges::any_of(columns_, &Column::is_value); }
-
   void read_rows() {
     Rows& all = rows_of_parts_.emplace_back();
     const auto read_next = [&] {
       if (!lines_.next()) return false;
       add_row(lines_, all);
-      if (channel_ && !add_channel(lines_.fields()[*channel_]))
-        lines_.fail(lines_.label(*channel_), "one more channel",
+      if (columns_.channel && !add_channel(lines_.fields()[*columns_.channel]))
+        lines_.fail(lines_.label(*columns_.channel), "one more channel",
                     fmt::format("at most {}", most_channels));
       return true;
     };
@@ -496,12 +188,12 @@ class CsvReader {
       try {
         while (parts[k].next()) {
           add_row(parts[k], rows[k]);
-          if (channel_) rows[k].channels.push_back(parts[k].fields()[*channel_]);
+          if (columns_.channel) rows[k].channels.push_back(parts[k].fields()[*columns_.channel]);
         }
       } catch (const Error&) {
         usual = false;
       }
-      if ((count += rows[k].count) * columns_.size() > most_values) usual = false;
+      if ((count += rows[k].count) * columns_.all.size() > most_values) usual = false;
     });
     if (!usual ||
         (std::ranges::any_of(parts, &Delimited::saw_points) &&
@@ -513,27 +205,27 @@ class CsvReader {
   }
 
   void add_row(Delimited& lines, Rows& to) const {
-    if (++to.count * columns_.size() > most_values)
-      lines.fail("", fmt::format("more rows of {} columns", columns_.size()),
+    if (++to.count * columns_.all.size() > most_values)
+      lines.fail("", fmt::format("more rows of {} columns", columns_.all.size()),
                  fmt::format("at most {} numbers", most_values));
-    to.columns.resize(columns_.size());
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      if (columns_[k].index) to.columns[k].push_back(number(lines, columns_[k]));
+    to.columns.resize(columns_.all.size());
+    for (std::size_t k = 0; k < columns_.all.size(); ++k)
+      if (columns_.all[k].index) to.columns[k].push_back(number(lines, columns_.all[k]));
   }
 
-  double number(Delimited& lines, const Column& c) const {
+  double number(Delimited& lines, const CsvColumn& c) const {
     const auto field = lines.fields()[*c.index];
-    if ((c.is_value || c.is_uncertainty) && is_gap(field))
+    if ((c.channel || c.is_uncertainty) && is_gap(field))
       return std::numeric_limits<double>::quiet_NaN();
     const double v = lines.number(*c.index);
-    if (!c.allows(v)) out_of_range(lines, c, field, lines.label(*c.index));
+    if (!c.allows(v)) c.refuse(lines, field, lines.label(*c.index));
     return v;
   }
 
   /// All rows of a column.
   template <class All>
   All column(std::size_t k) const {
-    if (!columns_[k].index) return All(rows_, columns_[k].constant);
+    if (!columns_.all[k].index) return All(rows_, columns_.all[k].constant);
     All all;
     all.reserve(rows_);
     for (const auto& part : rows_of_parts_)
@@ -542,22 +234,22 @@ class CsvReader {
   }
 
   void gather_columns(Table& t) {
-    std::vector<std::size_t> plane(columns_.size());
+    std::vector<std::size_t> plane(columns_.all.size());
     std::size_t uncertainties = 0;
-    for (std::size_t k = 0; k < columns_.size(); ++k)
-      if (columns_[k].is_value) {
+    for (std::size_t k = 0; k < columns_.all.size(); ++k)
+      if (columns_.all[k].channel) {
         plane[k] = t.channels.size();
-        t.channels.push_back(*channel_of(columns_[k].role));
-      } else if (columns_[k].is_uncertainty) {
+        t.channels.push_back(*columns_.all[k].channel);
+      } else if (columns_.all[k].is_uncertainty) {
         plane[k] = uncertainties++;
       }
     t.values.resize(t.channels.size());
     std::vector<Values> stated(uncertainties);
-    tbb::parallel_for(std::size_t{0}, columns_.size(), [&](std::size_t k) {
-      const auto angle = angle_place(columns_[k].role);
-      if (columns_[k].is_value)
+    tbb::parallel_for(std::size_t{0}, columns_.all.size(), [&](std::size_t k) {
+      const auto angle = angle_place(columns_.all[k].role);
+      if (columns_.all[k].channel)
         t.values[plane[k]] = column<Values>(k);
-      else if (columns_[k].is_uncertainty)
+      else if (columns_.all[k].is_uncertainty)
         stated[plane[k]] = column<Values>(k);
       else
         (angle < angle_roles.size() ? angles_[angle] : t.weights) = column<std::vector<double>>(k);
@@ -575,7 +267,7 @@ class CsvReader {
          {false, true}) {  // what is said of one channel beats what is said of all
       const auto before = of;
       std::size_t at = 0;
-      for (const auto& c : columns_) {
+      for (const auto& c : columns_.all) {
         const auto of_column = uncertainty_role(c.role);
         if (!of_column) continue;
         const Values* const own = &stated[at++];
@@ -640,20 +332,8 @@ class CsvReader {
     return all;
   }
 
-  [[noreturn]] void out_of_range(const Delimited& lines,
-                                 const Column& c,
-                                 std::string_view field,
-                                 const std::string& label) const {
-    std::string expected =
-        c.is_uncertainty ? "a standard uncertainty above 0" : bracketed(c.low, c.high);
-    if (angle_place(c.role) < angle_roles.size())
-      expected += map_->radians ? " radians" : " degrees";
-    if (c.role.starts_with("theta_")) expected += " (a zenith angle; perhaps columns are swapped)";
-    lines.fail(label, field, expected);
-  }
-
   void to_conventions(DirectionList& l) const {
-    for (double& phi : l.phi_o_deg) phi += 180 - map_->forward_deg;
+    for (double& phi : l.phi_o_deg) phi += 180 - map_.forward_deg;
     const auto to_zenith = [](std::vector<double>& theta, std::vector<double>& phi) {
       for (std::size_t i = 0; i < theta.size(); ++i) {
         if (theta[i] < 0) phi[i] += 180;
@@ -670,8 +350,8 @@ class CsvReader {
     for (auto* planes : {&t.values, &t.errors})
       for (auto& plane : *planes)
         for (std::size_t i = 0; i < plane.size(); ++i) {
-          plane[i] *= map_->scale;
-          if (!map_->cosine) continue;
+          plane[i] *= map_.scale;
+          if (!map_.cosine) continue;
           const double cosine = std::cos(t.list()->theta_o_deg[i] * degree);
           plane[i] =
               cosine < least_cosine ? std::numeric_limits<double>::quiet_NaN() : plane[i] / cosine;
@@ -688,7 +368,7 @@ class CsvReader {
     // Else a small file could ask for any amount of memory.
     if (samples.size() * channels_.size() > 8 * rows_ + 64 ||
         samples.size() * (channels_.size() + 4) > most_values)
-      throw bad_input(path_, "column " + lines_.label(*channel_),
+      throw bad_input(path_, "column " + lines_.label(*columns_.channel),
                       fmt::format("{} channels at {} directions in {} rows", channels_.size(),
                                   samples.size(), rows_),
                       "all channels at most of the directions");
@@ -731,11 +411,11 @@ class CsvReader {
   /// True where angles said to be degrees look like radians in the file itself: what a sign or --forward adds to an
   /// azimuth would hide it.
   bool angles_are_small() const {
-    if (map_->radians) return false;
+    if (map_.radians) return false;
     constexpr double quarter = 1.6, whole = 6.3;  // [rad], a little more than π/2 and 2π
     double largest_out = 0;
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      const Column& c = columns_[k];
+    for (std::size_t k = 0; k < columns_.all.size(); ++k) {
+      const CsvColumn& c = columns_.all[k];
       if (!c.index || !is_angle(c.role)) continue;
       double largest = 0;
       for (const auto& part : rows_of_parts_)
@@ -747,26 +427,17 @@ class CsvReader {
     return largest_out > 0.5;
   }
 
-  double forward_deg() const { return map_->forward_deg; }
-
-  const ColumnMap* map_;
-  const ColumnMap usual_{};
+  const ColumnMap map_;
   bool needs_values_;
   std::string path_;
   Text text_;
   Delimited lines_;
-  std::vector<Column> columns_;
-  std::optional<std::size_t> channel_;
-  std::set<std::string, std::less<>> roles_;                  ///< of columns_
+  CsvColumns columns_;
   std::map<std::string, std::size_t, std::less<>> channels_;  ///< of rows; their numbers
   std::vector<std::size_t> channel_of_row_;
   std::vector<Rows> rows_of_parts_;  ///< in their order
   std::size_t rows_ = 0;
   std::array<std::vector<double>, angle_roles.size()> angles_;  ///< [role][row]
-  std::optional<std::string> header_;    ///< the angle that the columns' names hold
-  std::vector<std::size_t> elevations_;  ///< zenith angles, by their place among angle_roles, that
-                                         ///< are 90° less their column
-  std::vector<double> header_angles_;    ///< in the map's unit; of each value column
 };
 
 std::ptrdiff_t beyond(const std::vector<double>& angles, double limit) {
@@ -869,7 +540,7 @@ std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
 
 void write_csv(const Table& t, OutputFile& out) {
   const std::size_t columns =
-      kAngles.size() + t.channels.size() + t.errors.size() + (t.weights.empty() ? 0 : 1);
+      half_roles + t.channels.size() + t.errors.size() + (t.weights.empty() ? 0 : 1);
   if (t.channels.size() > most_channels || t.size() > most_values / columns)
     throw bad_input(out.path(), "writing", fmt::format("{} rows of {} columns", t.size(), columns),
                     fmt::format("at most {} channels and {} numbers, which is read", most_channels,
