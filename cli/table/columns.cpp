@@ -49,6 +49,7 @@ ColumnMap map_of(const ColumnsCall& o) {
 /// Constants may stand for the columns that two numbers a line leave open.
 void expect_columns(InputFile& in) {
   const std::string head = in.peek(1 << 16);
+  expect_no_utf16(in.path(), head);
   if (!is_csv(head) && !looks_delimited(head, 2))
     throw bad_input(in.path(), "the beginning", head.substr(0, 24),
                     "text with a line of at least two numbers");
@@ -175,6 +176,8 @@ void print(const ColumnProposal& p, const std::string& file) {
   if (p.map && p.map->cosine) command += " --cosine";
   if (p.map && p.map->forward_deg != ColumnMap().forward_deg)
     command += fmt::format(" --forward {:g}", p.map->forward_deg);
+  if (p.map && p.map->scale != ColumnMap().scale)
+    command += fmt::format(" --scale {:.9g}", p.map->scale);
   if (p.map && p.map->skip) command += fmt::format(" --skip {}", p.map->skip);
   say("no map; {}\n  {}\n", p.map ? "by their names and ranges it would be" : "one is made by",
       command);

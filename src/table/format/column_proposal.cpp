@@ -64,6 +64,22 @@ constexpr std::array viewer{
     Words("streu"),   Words("beobachtungs"), Words("aus"),       Words("observation")};
 constexpr std::array incidence{Words("aoi"), Words("incidence"), Words("incidenceangle"),
                                Words("angleofincidence")};
+constexpr std::array reflection{
+    Words("aor"),       Words("reflection"),         Words("reflectionangle"),
+    Words("aov"),       Words("angleofreflection"),  Words("angleofview"),
+    Words("viewangle"), Words("angleofobservation"), Words("observationangle"),
+    Words("emergence"), Words("emergenceangle"),     Words("angleofemergence")};
+/// Reflectance of the light, times π what a white surface sends: radiance factors.
+constexpr std::array factors{Words("radiancefactor"),
+                             Words("reflectancefactor"),
+                             Words("bidirectionalreflectancefactor"),
+                             Words("brf"),
+                             Words("hdrf"),
+                             Words("reflectance"),
+                             Words("reflectivity"),
+                             Words("remission"),
+                             Words("reflexionsgrad"),
+                             Words("strahldichtefaktor")};
 constexpr std::array values{
     Words("f"),    Words("brdf"),      Words("bsdf"),  Words("fr"),       Words("fr11"),
     Words("f11"),  Words("brdfvalue"), Words("value"), Words("measured"), Words("ccbrdf"),
@@ -127,7 +143,10 @@ struct Said {
 };
 Said said_by(const std::string& name) {
   std::string rest = name;
-  if (is_any(name, incidence)) return {theta_i, false, false, false};
+  for (const auto unit : units)
+    if (unit.starts_with("deg") || unit.starts_with("rad")) take(rest, unit);
+  if (is_any(rest, incidence)) return {theta_i, false, false, false};
+  if (is_any(rest, reflection)) return {theta_o, false, false, false};
   for (const auto unit : units) take(rest, unit);
   const bool zenith = take_any(rest, zeniths), azimuth = !zenith && take_any(rest, azimuths);
   if (!zenith && !azimuth) {  // "in" and "out" are enough, "i" and "r" are not
@@ -216,6 +235,33 @@ std::optional<std::string> uncertainty_kind(std::string_view name) {
   return std::string(factor.value_or(expanded ? 2 : 1) == 2 ? "U_" : "u_") + (percent    ? "percent"
                                                                               : relative ? "rel"
                                                                                          : "f");
+}
+
+/// What values of that name are to be multiplied with where it is that of radiance factors, in parts or percent.
+std::optional<double> factor_scale(std::string_view name) {
+  std::string rest;
+  bool percent = false;
+  for (const auto& word : words_of(name)) {
+    percent = percent || word == "%";
+    rest += plain(word);
+  }
+  percent = take_any(rest, words_of_percent) || percent;
+  if (!is_any(rest, factors) && !(percent && rest == "r")) return {};
+  return std::numbers::inv_pi / (percent ? 100 : 1);
+}
+
+/// Columns that are named after wavelengths in nm, without the unit; none where a number among the names is another.
+std::vector<std::size_t> bare_wavelengths(std::span<const ColumnSummary> columns) {
+  std::vector<std::size_t> all;
+  double before = 0;
+  for (std::size_t k = 0; k < columns.size(); ++k) {
+    const auto nm = number_in(columns[k].name);
+    if (!nm) continue;
+    if (!(*nm >= 200 && *nm <= 25'000 && *nm > before)) return {};
+    before = *nm;
+    all.push_back(k);
+  }
+  return all.size() > 1 ? all : std::vector<std::size_t>();
 }
 
 /// A name with a wavelength in it, which others may have in its place.
@@ -547,6 +593,25 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
     map.columns.emplace_back("f_*", bands.values);
     found.value.reset();
   }
+  bool bare = false;
+  if (!found.value && !by_channel && !found.channel && !matrix && bands.values.empty()) {
+    const auto by_wavelength = bare_wavelengths(columns);
+    for (const std::size_t k : by_wavelength)
+      map.columns.emplace_back("f_" + columns[k].name, reference(k));
+    if (bare = !by_wavelength.empty(); bare)
+      p.said.push_back(fmt::format("columns {} to {} are taken for wavelengths in nm",
+                                   columns[by_wavelength.front()].name,
+                                   columns[by_wavelength.back()].name));
+  }
+  if (!found.value && !by_channel && !bare && !matrix && bands.values.empty())
+    for (std::size_t k = 0; k < columns.size(); ++k)
+      if (const auto scale = factor_scale(columns[k].name); scale && !found.value) {
+        found.value = k;
+        map.scale = *scale;
+        p.said.push_back(fmt::format(
+            "{} is taken for a radiance factor{}, beside a white that reflects all: --scale {:.9g}",
+            columns[k].name, *scale < 0.1 ? " in percent" : "", *scale));
+      }
   if (found.value && !by_channel) map.columns.emplace_back("f", reference(*found.value));
   if (found.channel) map.columns.emplace_back("channel", reference(*found.channel));
   const auto take_for_uncertainty = [&](const std::string& name, const std::string& kind,
@@ -583,7 +648,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
             : fmt::format("{} and {} more look like uncertainties", unclear[0], unclear.size() - 1),
         unclear.size() == 1 ? "is" : "are"));
 
-  const bool has_values = found.value || by_channel || !bands.values.empty() || matrix;
+  const bool has_values = found.value || by_channel || bare || !bands.values.empty() || matrix;
   if (!has_values) p.said.emplace_back("no column is called like a value, f or brdf");
   if (lacks || !has_values) return p;
   if (found.value && plain(columns[*found.value].name).starts_with("cc")) {

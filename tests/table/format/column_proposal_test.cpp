@@ -127,6 +127,43 @@ TEST(ColumnProposal, CosineCorrectedValuesAndColumnsOfWavelengthsAreRecognised) 
   EXPECT_FALSE(q.map->cosine);
 }
 
+TEST(ColumnProposal, NumbersAsNamesAreWavelengthsWhereBothAnglesHaveOne) {
+  const std::vector<ColumnSummary> spectra{column("AOI [deg]", 0, 75), column("AOR (deg)", -80, 80),
+                                           column("400", 0, 1), column("450.5", 0, 1)};
+  const auto p = propose_columns(spectra);
+  ASSERT_TRUE(p.map);
+  EXPECT_EQ(p.map->columns, (Map{{"theta_i", "AOI [deg]"},
+                                 {"theta_o", "AOR (deg)"},
+                                 {"f_400", "400"},
+                                 {"f_450.5", "450.5"}}));
+  auto other = spectra;
+  other.push_back(column("12", 0, 1));  // no wavelength
+  EXPECT_FALSE(propose_columns(other).map);
+}
+
+TEST(ColumnProposal, RadianceFactorsAreDividedByPiAndByAHundredInPercent) {
+  constexpr double of_part = 0.31830988618379067;
+  for (const auto& [name, scale] : {std::pair("R [%]", of_part / 100),
+                                    {"Reflectance (percent)", of_part / 100},
+                                    {"BRF", of_part},
+                                    {"radiance factor", of_part}}) {
+    const std::vector<ColumnSummary> columns{column("angle of incidence", 0, 75),
+                                             column("angle of reflection", -80, 80),
+                                             column(name, 0, 90)};
+    const auto p = propose_columns(columns);
+    ASSERT_TRUE(p.map) << name;
+    EXPECT_EQ(p.map->columns.back(), std::pair(std::string("f"), std::string(name)));
+    EXPECT_DOUBLE_EQ(p.map->scale, scale) << name;
+  }
+  // A radius, or what a name says nothing of, is no radiance factor; f beside one is f.
+  const std::vector<ColumnSummary> radius{column("aoi", 0, 75), column("aor", -80, 80),
+                                          column("R", 0, 90)};
+  EXPECT_FALSE(propose_columns(radius).map);
+  const std::vector<ColumnSummary> both{column("aoi", 0, 75), column("aor", -80, 80),
+                                        column("R [%]", 0, 90), column("BRDF", 0, 9)};
+  EXPECT_EQ(propose_columns(both).map->scale, 1);
+}
+
 TEST(ColumnProposal, UncertaintiesAreRecognised) {
   using Case = std::pair<const char*, const char*>;
   for (const auto& [name, role] :
