@@ -251,6 +251,12 @@ FitResult fit_and_judge(const Table& t,
     d.aperture_deg = std::vector{t.aperture.light / degree, t.aperture.detector / degree};
   d.values_used = a.counts.used;
   d.masked = a.counts.by_reason(sampling);
+  if (!t.mask.empty()) {
+    d.mask = t.mask;
+    const auto left_out = d.masked["left_out_by_mask"] = values_left_out(t);
+    auto& without = d.masked[std::string(name_of(Mask::not_finite))];
+    if (t.grid()) without -= std::min(left_out, without);
+  }
   d.input_path = t.path;
   d.input_format = t.format;
   d.bins = t.has_bins() ? name_of(bins) : "none";

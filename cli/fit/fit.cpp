@@ -183,8 +183,8 @@ std::string within_sentence(std::string text) {
 void print(const ModelChoice& choice, const Advice& advice) {
   for (const auto& w : choice.warnings) say_below("beware  ", w);
   if (!advice.recommended.empty()) {
-    if (advice.none_fits) say_below("take    ", "none fits; the nearest of them is");
-    say_below(advice.none_fits ? "        " : "take    ", advice.recommended);
+    if (advice.none_fits) say("no model fits\n");
+    say_below(advice.none_fits ? "nearest " : "take    ", advice.recommended);
     say_below("because ", within_sentence(advice.reason));
     for (const auto& b : advice.beware) say_below("beware  ", b);
     for (const auto& m : advice.as_good) say_below("as good ", m);
@@ -283,7 +283,8 @@ Exit run(const FitCall& call) {
     progress("making the page");
     const Health health = inspect(t);
     const FitPage page = make_fit_page(t, result.model);
-    out.write_page(fit_page_html(d, t, health, page), to_json(page, json, to_json(t, health)));
+    out.write_page(fit_page_html(d, t, health, page, o.output),
+                   to_json(page, json, to_json(t, health)));
   }
   out.commit();
   progress.clear();

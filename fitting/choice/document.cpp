@@ -79,7 +79,8 @@ struct Description<ModelsDocument> {
         constant_text("schema", "gonio.models/1"),
         group("input", "table", field("path", table(&ComparedTable::path), ""),
               field("sha256", table(&ComparedTable::sha256), "of the file"),
-              field("format", table(&ComparedTable::format), "")),
+              field("format", table(&ComparedTable::format), ""),
+              field("mask", table(&ComparedTable::mask), "expression of --mask; empty: none")),
         field("metric", table(&ComparedTable::metric), "that the fits minimise"),
         field("warnings", choice(&ModelChoice::warnings), "sentences on the table's values"),
         field("models", choice(&ModelChoice::rows), "in the order asked"),
@@ -100,7 +101,7 @@ struct Description<ModelsDocument> {
 };
 
 ComparedTable compared_table(const Table& t, const FitOptions& o) {
-  return {t.path, t.sha256, t.format, std::string(name_of(o.metric))};
+  return {t.path, t.sha256, t.format, std::string(name_of(o.metric)), t.mask};
 }
 
 std::string to_json(const ModelChoice& choice, const Advice& advice, const ComparedTable& table) {

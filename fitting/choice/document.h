@@ -10,7 +10,7 @@ namespace gonio {
 
 /// Table that models were compared on, as a document names it.
 struct ComparedTable {
-  std::string path, sha256, format, metric;
+  std::string path, sha256, format, metric, mask;
 };
 
 ComparedTable compared_table(const Table&, const FitOptions&);

@@ -180,7 +180,7 @@ std::vector<std::string> physics_in_words(const Physics& p) {
     all.emplace_back("the fitted model is not dark where a channel of the table is 0 everywhere");
   if (ratio > far_above)
     all.push_back(fmt::format(
-        "the fitted model rises to {} times the table's greatest value where that has samples",
+        "at the table's own samples the fitted model peaks at {} times the table's greatest value",
         factor(ratio)));
   return all;
 }
@@ -191,9 +191,9 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
   for (std::size_t k = 0; k < m.follows.size(); ++k)
     size += (k == 0 ? ", along " : k + 1 < m.follows.size() ? ", " : " and ") + m.follows[k];
   std::vector<std::string> all{"the model misses the table by a factor of " + size +
-                               "; intervals allow for it"};
+                               "; intervals include this"};
   if (const auto& c = m.worst_cell)
-    all.push_back(fmt::format("the largest deviation is near theta_h {:.2g}°, theta_d {:.2g}°: {}",
+    all.push_back(fmt::format("the largest deviation that is no noise is near theta_h {:.2g}°, theta_d {:.2g}°: {}",
                               (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
                               (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
                               c->difference > 1   ? factor(1 + c->difference) + " times as bright"

@@ -153,6 +153,7 @@ struct FitDocument {
   std::optional<std::vector<double>> aperture_deg = {};  ///< of light and detector, if known
   std::size_t values_used = 0;
   std::map<std::string, std::size_t> masked;  ///< values left out, by reason
+  std::optional<std::string> mask = {};       ///< expression of --mask
   std::vector<BinSensitivity> sensitivity;    ///< empty where there are no bins
   std::optional<Certificate> certificate;     ///< none where it was not asked for
 };

@@ -102,9 +102,9 @@ function save(name, text, type = "application/json") {
 const saver = (label, name, text) => Object.assign(make("button", {}, label), { onclick: () => save(name, text) });
 function show_fit(text, table) {
   const d = JSON.parse(text), line = (kind, said) => make("p", {}, make("b", {}, `${kind}: `), said);
-  // Advice that is an option is taken at a press.
+  // Advice that is an option, and no matter of taste as the metric is, is taken at a press.
   const advice = (said) => {
-    const [, option, value] = /^--(model|metric|bounds|mask|bins) ('[^']*'|[^\s:]+)/.exec(said) ?? [], p = line("Try", said);
+    const [, option, value] = /^--(model|bounds|mask|bins) ('[^']*'|[^\s:]+)/.exec(said) ?? [], p = line("Try", said);
     if (option) p.append(" ", Object.assign(make("button", {}, "Do it"), { onclick: carefully(() => {
       if (option === "model") return fit_table(value);
       $("words").value = `${$("words").value} --${option} ${value}`.trim();

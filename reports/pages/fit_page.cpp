@@ -243,8 +243,8 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
       "Parameters",
       fmt::format(
           "Values are written to the second digit of their standard error. Intervals: "
-          "{}{}. Each bar is an interval around the value in the picture's middle. An "
-          "arrow marks a bar that goes on beyond it; a limit to one side begins there.{}",
+          "{}{}. In the pictures the dot is the value, the bar its interval. An arrow says that it "
+          "goes on, or that the limit has one side.{}",
           d.intervals, d.clusters > 0 ? fmt::format(", {} clusters", count_text(d.clusters)) : "",
           with_truth ? " The table is synthetic: the orange tick is the value it was made with."
                      : ""),
@@ -269,7 +269,8 @@ namespace gonio {
 std::string fit_page_html(const FitDocument& d,
                           const gonio::Table& t,
                           const Health& h,
-                          const FitPage& p) {
+                          const FitPage& p,
+                          const std::string& document) {
   using namespace page;
   const auto file = file_name(d.input_path);
   const auto rows = rows_of(d, t);
@@ -310,16 +311,17 @@ std::string fit_page_html(const FitDocument& d,
                   curves_section(t, p.curves, pictures),
                   spheres_section(p.spheres, "fit"),
                   residuals(d, p.residual_map, pictures),
-                  albedo(d, pictures),
+                  albedo(d, h, pictures),
                   search(d, pictures),
                   confidence(d, pictures),
                   trust_section(t, h),
                   solver(d, pictures),
-                  input(d)};
+                  input(d, document)};
   out.setting =
-      "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = "
-      "√alpha. "
-      "Every figure of this page is in the .page.json beside it, and the fit's in fit.json.";
+      std::string(
+          "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = "
+          "√alpha. Every figure of this page is in the .page.json beside it") +
+      (document.empty() ? "" : ", and the fit's in " + file_name(document)) + ".";
   return page_html(out, pictures);
 }
 

@@ -33,6 +33,11 @@ std::string to_json(const FitPage&, std::string_view fit_json, std::string_view 
 std::string fit_page_schema();
 
 /// The page itself, HTML.
-std::string fit_page_html(const FitDocument&, const Table&, const Health&, const FitPage&);
+/// \param document  file of the fit's document; "": none is known
+std::string fit_page_html(const FitDocument&,
+                          const Table&,
+                          const Health&,
+                          const FitPage&,
+                          const std::string& document = "");
 
 }  // namespace gonio

@@ -50,10 +50,10 @@ std::string map_words(const ResidualMap& m) {
     return degrees_text((edges[i] + edges[i + 1]) / 2);
   };
   return fmt::format(
-      "{} cells: half of them within a factor of {:.4f}; largest deviation {} at half-vector angle "
-      "{}, difference angle {}.",
-      count, std::exp(median(sizes)), ratio_text(m.mean[worst]), middle(m.theta_h_deg, worst / nd),
-      middle(m.theta_d_deg, worst % nd));
+      "{} cells: half of them within {}. The single cell that is furthest off: {} at half-vector "
+      "angle {}, difference angle {}.",
+      count, factor_text(median(sizes)), ratio_text(m.mean[worst]),
+      middle(m.theta_h_deg, worst / nd), middle(m.theta_d_deg, worst % nd));
 }
 
 }  // namespace
@@ -123,8 +123,8 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
       {Group{"columns map", {std::move(maps), std::move(bands)}}}};
 }
 
-// --- Light that comes back -----------------------------------------------------------------------
-Section albedo(const FitDocument& d, Pictures& pictures) {
+// --- Directional albedo -----------------------------------------------------------------------
+Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   const auto& p = d.physics;
   if (p.theta_i_deg.empty()) return {};
   const std::size_t all = d.channels.size(), most = std::min<std::size_t>(4, all);
@@ -145,9 +145,9 @@ Section albedo(const FitDocument& d, Pictures& pictures) {
           {largest, p.model_albedo[k][c], known(p.data_albedo[k][c]) ? p.data_albedo[k][c] : 0});
     }
   Figure f = make_figure("albedo");
-  f.title = "Light that comes back";
+  f.title = "Directional albedo";
   f.x = {"θ_i [°], incident angle", false, 0, 90};
-  f.y = {"share of the light"};
+  f.y = {"share of the light that is reflected"};
   const auto column = [&](const std::vector<std::vector<double>>& of, std::size_t c) {
     std::vector<double> out;
     for (const auto& row : of) out.push_back(row[c]);
@@ -185,11 +185,14 @@ Section albedo(const FitDocument& d, Pictures& pictures) {
       if (has_data) cell(p.data_albedo[k][c]);
     }
   }
+  const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
+  const bool has_error = data != h.albedo.end() && data->error > 0;
   std::string words =
-      fmt::format("The fitted model returns at most {} of the light, at θ_i {}{}.{}", share(top),
+      fmt::format("The fitted model reflects at most {} of the light, at θ_i {}{}.{}", share(top),
                   degrees_text(p.theta_i_deg[at]),
                   known(p.data_albedo[at][channel])
-                      ? "; there the table returns " + share(p.data_albedo[at][channel])
+                      ? fmt::format("; the table there {}{}", share(p.data_albedo[at][channel]),
+                                    has_error ? "\u202f±\u202f" + significant(data->error, 2) : "")
                       : "",
                   above(top) ? " Above 1 more light leaves than arrives: no surface "
                                "does that."
@@ -200,19 +203,18 @@ Section albedo(const FitDocument& d, Pictures& pictures) {
   if (!ratios.empty()) {
     const auto [low, high] = std::ranges::minmax(ratios);
     const auto a = plain(low, 2), b = plain(high, 2);
-    words += fmt::format(
-        " At the table's own samples the model's greatest value is {}{} times the table's.",
-        a == b ? "" : a + " to ", b);
+    words +=
+        fmt::format(" The model's peak, at the table's own samples, is {}{} times the table's.",
+                    a == b ? "" : a + " to ", b);
   }
   const Shown picture{f.family, {}, 260};
   pictures.figures.push_back(std::move(f));
   return {
-      "Light that comes back",
-      fmt::format("Share of the light from one direction that all directions together return, by "
-                  "the angle it comes from: the fitted model{}.",
-                  has_data ? " beside the table. Where half of the directions or more are missing, "
-                             "the table gives no value"
-                           : "; this table does not give its own"),
+      "Directional albedo",
+      fmt::format("Share of the light from one direction that is reflected into all others. {}",
+                  has_data ? "Where half of the directions or more are missing, the table gives no "
+                             "value."
+                           : "The table has too few directions for its own."),
       {Prose{std::move(words)}, Group{"columns light", {picture, std::move(t)}}}};
 }
 
@@ -393,24 +395,32 @@ Section solver(const FitDocument& d, Pictures& pictures) {
              {"metric", words(d.metric)},
              {"log offset", d.log_offset > 0 ? significant(d.log_offset) + " 1/sr" : ""},
              {"robust loss", words(d.robust)}}});
-  return {"How the solver got there", s.message, {std::move(beside)}};
+  return {"How the solver got there",
+          s.iterations == 0 && s.termination == "converged"
+              ? "The search before it had already reached the optimum."
+              : s.message,
+          {std::move(beside)}};
 }
-Section input(const FitDocument& d) {
+Section input(const FitDocument& d, const std::string& document) {
   std::vector<std::string> left_out;
   for (const auto& [why, n] : d.masked)
     if (n > 0) left_out.push_back(count_text(n) + " " + words(why));
   return {
       "Input",
       "",
-      {Pairs{{{"file", "`" + d.input_path + "`"},
-              {"SHA-256", "`" + d.input_sha256 + "`"},
-              {"format", d.input_format},
-              {"bins", d.bins == "none" ? "none: samples are points"
-                                        : fmt::format("samples at the {} of their bins", d.bins)},
-              {"values used", count_text(d.values_used)},
-              {"left out", left_out.empty() ? "none" : fmt::to_string(fmt::join(left_out, ", "))},
-              {"with sliders", fmt::format("`gonio explore {} fit.json -o explore.html`",
-                                           shell_word(file_name(d.input_path)))}}}}};
+      {Pairs{
+          {{"file", "`" + d.input_path + "`"},
+           {"SHA-256", "`" + d.input_sha256 + "`"},
+           {"format", d.input_format},
+           {"bins", d.bins == "none" ? "none: samples are points"
+                                     : fmt::format("samples at the {} of their bins", d.bins)},
+           {"values used", count_text(d.values_used)},
+           {"left out", left_out.empty() ? "none" : fmt::to_string(fmt::join(left_out, ", "))},
+           {"mask", d.mask ? "`" + *d.mask + "`" : ""},
+           {"with sliders", document.empty() ? ""
+                                             : fmt::format("`gonio explore {} {} -o explore.html`",
+                                                           shell_word(file_name(d.input_path)),
+                                                           shell_word(file_name(document)))}}}}};
 }
 
 }  // namespace gonio::fit_sections

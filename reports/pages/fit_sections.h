@@ -30,7 +30,7 @@ std::string rho_text(double rho);
 /// Where the model is off: the map of residuals, and their size by angle.
 page::Section residuals(const FitDocument&, const ResidualMap&, Pictures&);
 /// Share of the light that comes back, of the table and of the model.
-page::Section albedo(const FitDocument&, Pictures&);
+page::Section albedo(const FitDocument&, const Health&, Pictures&);
 /// Search for a lower optimum over the widths.
 page::Section search(const FitDocument&, Pictures&);
 /// How well the parameters are separated, and what the other convention of bins would change.
@@ -38,6 +38,6 @@ page::Section confidence(const FitDocument&, Pictures&);
 /// Iterations and times of the solver.
 page::Section solver(const FitDocument&, Pictures&);
 /// File, hash, and the values that were left out.
-page::Section input(const FitDocument&);
+page::Section input(const FitDocument&, const std::string& document);
 
 }  // namespace gonio::fit_sections

@@ -320,10 +320,13 @@ std::vector<Part> ModelsSections::verdict() const {
   const auto say = [&](std::string text) { out.emplace_back(Prose{std::move(text), "verdict"}); };
   if (compared_.empty()) return out;
   const auto& m = taken();
-  say(fmt::format("Take **{}**: `{}`.", m.name, m.row.model));
+  say(fmt::format("{} **{}**: `{}`.",
+                  advice_.none_fits ? "No model fits the table. The nearest is" : "Take", m.name,
+                  m.row.model));
   say(in_words(advice_.reason));
-  say(fmt::format("Typically model and table differ by a factor of {}{}.",
-                  factor_text(error_of(choice_, m.row)), predicted_ ? " there" : ""));
+  say(fmt::format("{} model and table typically differ by {}.",
+                  predicted_ ? "On incident angles left out of the fit," : "On the angles fitted,",
+                  factor_text(error_of(choice_, m.row))));
   std::vector<std::string> alike, not_compared;
   for (const auto& other : compared_)
     if (as_good(other)) alike.push_back(other.name);
@@ -357,7 +360,8 @@ Section ModelsSections::models() const {
       t.row_looks.emplace_back(recommended ? "chosen" : "");
       row.emplace_back(
           fmt::format("{}{}{}", m.number ? fmt::format("{}\u2002", m.number) : "", m.name,
-                      recommended  ? "\u2002**recommended**"
+                      recommended
+                          ? advice_.none_fits ? "\u2002**nearest**" : "\u2002**recommended**"
                       : as_good(m) ? "\u2002as good"
                                    : ""),
           "", fmt::format("`{}`{}", r.model, r.note.empty() ? "" : " " + capital(r.note) + "."));
@@ -377,8 +381,8 @@ Section ModelsSections::models() const {
                            : fmt::to_string(fmt::join(r.parameters_at_bound, ", ")));
     }
   return {"The models",
-          fmt::format("The nearest first, {}.", predicted_ ? "on angles that the fit had not seen"
-                                                           : "over the angles fitted"),
+          fmt::format("The nearest first, {}.",
+                      predicted_ ? "on angles left out of the fit" : "over the angles fitted"),
           {std::move(t)},
           "models"};
 }
@@ -454,63 +458,62 @@ std::string ModelsSections::html() {
       "How near, and how fast",
       fmt::format(
           "Each point is a model, with its number in the list below. Further down is nearer to the "
-          "table, further left is faster. The dashed line is the front: no model is faster, by "
-          "more "
-          "than both times vary, and as near. {}",
-          predicted_ ? "Nearness is judged on incident angles that the fit had not seen."
+          "table, further left is faster. The dashed line joins the models that no other beats in "
+          "both. {}",
+          predicted_ ? "Nearness is judged on incident angles left out of the fit."
                      : "The table has too few incident angles to leave some out: nearness is that "
-                       "over the "
-                       "angles fitted."),
+                       "over the angles fitted."),
       {Shown{"error_and_time", {}, 380}}};
   auto drawn = curves(pictures);
   Section input{
       "Input, and how it was judged",
       "",
-      {Pairs{
-          {{"file", "`" + table_.path + "`"},
-           {"SHA-256", "`" + table_.sha256 + "`"},
-           {"format", table_.format},
-           {"metric of the fits", words(table_.metric)},
-           {"left out in turn",
-            predicted_ ? many(choice_.blocks, "block") + " of neighbouring incident angles"
-                       : "nothing: the table has too few incident angles"},
-           {"values", std::isfinite(choice_.effective_values)
-                          ? fmt::format("worth {} independent ones, which AIC and BIC count",
-                                        count_text(static_cast<std::size_t>(
-                                            std::lround(choice_.effective_values))))
-                          : ""},
-           {"one fit of it",
-            compared_.empty() ? ""
-                              : fmt::format("`gonio fit {} --model {} -o fit.json --html fit.html`",
-                                            shell_word(file), taken().row.model)},
-           {"with sliders", compared_.empty()
-                                ? ""
-                                : fmt::format("`gonio explore {} {} -o explore.html`",
-                                              shell_word(file), taken().row.model)}}}}};
+      {Pairs{{{"file", "`" + table_.path + "`"},
+              {"SHA-256", "`" + table_.sha256 + "`"},
+              {"format", table_.format},
+              {"metric of the fits", words(table_.metric)},
+              {"left out in turn",
+               predicted_ ? many(choice_.blocks, "block") + " of neighbouring incident angles"
+                          : "nothing: the table has too few incident angles"},
+              {"values", std::isfinite(choice_.effective_values)
+                             ? fmt::format("worth {} independent ones, which AIC and BIC count",
+                                           count_text(static_cast<std::size_t>(
+                                               std::lround(choice_.effective_values))))
+                             : ""},
+              {"one fit of it",
+               compared_.empty()
+                   ? ""
+                   : fmt::format("`gonio fit {} --model {}{} -o fit.json --html fit.html`",
+                                 shell_word(file), taken().row.model,
+                                 table_.mask.empty() ? "" : " --mask " + shell_word(table_.mask))},
+              {"with sliders",
+               compared_.empty() ? ""
+                                 : fmt::format("`gonio explore {} {} -o explore.html`",
+                                               shell_word(file), taken().row.model)}}}}};
   Section meanings{
       "What the words mean",
       "",
       {Pairs{
           {{"log RMS", "typical size of ln f − ln y, model over table: 0.1 is a factor of 1.1"},
+           {"free", "values that were fitted, those of each channel counted"},
            {"unseen",
             "log RMS on incident angles that were left out of the fit. It grows where a model has "
             "more parameters than the table can determine"},
-           {"cannot be told apart",
+           {"as good",
             "at most 5 % more of it than the best model and within two standard errors "
-            "over the blocks, or 0.1 % more"},
+            "over the blocks, or 0.1 % more; and a BIC that is no more than 10 higher"},
            {"BIC",
-            "a judge of the fit to the whole table that asks a price for each free value; less is "
-            "better, and only differences count"},
+            "judges the fit to the whole table, and penalises each free value; less is better, and "
+            "only differences count"},
            {"ΔE2000",
             "difference of colour between a sphere of the table and one of the model: half of the "
-            "pixels are within it, as a mean of three lights. Above 1 it is seen side by side"},
-           {"time", "of one sample in all channels, in float, on this machine"},
-           {"free", "values that were fitted, those of each channel counted"},
+            "pixels are within it, averaged over three lights. Above 1 it is seen side by side"},
+           {"time", "that one sample takes in all channels, in float, on this machine"},
            {"at the end of its range",
             "a parameter that the data push beyond what it may be: the model lacks something"},
            {"front",
-            "models that no other beats: none is faster, by more than both times vary, and as "
-            "near"}}}},
+            "models that no other beats in both speed and nearness; times that vary more than they "
+            "differ are equal"}}}},
       "words"};
   out.sections = {std::move(front), models(),
                   std::move(drawn), spheres_section(spheres(), "", at_once),

@@ -33,13 +33,22 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
     return worst(shown, m, &ModelSphere::median).models[m].median;
   });
   const bool several = name.empty() && s.models.size() > 1;
+  const auto alike = std::ranges::count_if(all, [&](std::size_t m) {
+    return worst(shown, m, &ModelSphere::median).models[m].median <= hardly_seen;
+  });
+  if (several && alike > 1)
+    return fmt::format(
+        "{} of {} models look almost like the table: half of their pixels differ by "
+        "less than ΔE2000 {} under each light.",
+        alike, s.models.size(), hardly_seen);
   const auto who = name.empty() ? s.models[best] : fmt::format("the {}", name);
   const auto begin =
       several ? fmt::format("Among {} models, {} comes closest: it", s.models.size(), who)
               : capital(who);
   const auto& w = worst(shown, best, &ModelSphere::median);
   const auto& most = w.models[best];
-  const double tail = worst(shown, best, &ModelSphere::p95).models[best].p95;
+  const auto& widest = worst(shown, best, &ModelSphere::p95);
+  const double tail = widest.models[best].p95;
   const auto [least, largest] = std::ranges::minmax(shown, {}, &SpheresUnderLight::covered);
   const auto from = percent(least->covered), to = percent(largest->covered);
   const auto part = least->covered > 0.9
@@ -55,9 +64,9 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
             : "under " + shown[0]->light,
         delta_e_text(std::max(tail, 0.01)), part);
   const auto half =
-      fmt::format("Under {}{} half of the pixels are within ΔE2000 {} and 95\u202f% within {}.",
-                  w.light, shown.size() > 1 ? ", where it differs most," : "",
-                  delta_e_text(most.median), delta_e_text(most.p95));
+      fmt::format("Half of the pixels are within ΔE2000 {} (most under {}), 95\u202f% within {}{}.",
+                  delta_e_text(most.median), w.light, delta_e_text(tail),
+                  &widest == &w ? "" : fmt::format(" (most under {})", widest.light));
   const auto spacing = most.spacing_p95 > 0.5 * most.p95
                            ? fmt::format(
                                  " Much of that is the spacing of the table's samples and not the "
@@ -140,9 +149,9 @@ std::string how(const Spheres& s) {
       "behind "
       "the sphere. Flash: one, 10° above the viewer. White is the table's 99th percentile of "
       "luminance under each light. Covered: share of the lit pixels whose value the table gives "
-      "by interpolation; a list needs a sample within {}° of both directions, mirrored or "
-      "swapped.{} Only spacing: the difference between the fit itself and the fit sampled where "
-      "the table is, and interpolated in between.",
+      "by interpolation; scattered samples count within {}° of both directions, mirrored or "
+      "swapped.{} Only spacing: the difference between the fit and the fit sampled at the table's "
+      "places, interpolated between them.",
       Spheres::reach_deg,
       colours
           ? std::string()

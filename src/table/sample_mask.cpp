@@ -274,6 +274,7 @@ void leave_out(Table& t, std::string_view expression) {
   if (count == t.size()) throw bad_input(t.path, place(), "no sample left", "at least one");
   t.notes.emplace_back("mask",
                        fmt::format("{} leaves out {} of {} samples", expression, count, t.size()));
+  t.mask = expression;
   if (count == 0) return;
   t.between = nullptr;  // it would speak for what is left out
   t.left_out.reset();
@@ -282,6 +283,15 @@ void leave_out(Table& t, std::string_view expression) {
   out.flip();
   keep_where(t, out);
   t.left_out = std::move(rest);
+}
+
+std::size_t values_left_out(const Table& t) {
+  if (!t.left_out) return 0;
+  const SampleAngles at(*t.left_out);
+  std::size_t count = 0;
+  for (const auto& plane : t.left_out->values)
+    for (std::size_t i = 0; i < plane.size(); ++i) count += mask(at(i), plane[i]) == Mask::valid;
+  return count;
 }
 
 }  // namespace gonio

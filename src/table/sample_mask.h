@@ -20,6 +20,9 @@ namespace gonio {
 /// is left.
 void leave_out(Table&, std::string_view expression);
 
+/// Number of values that a fit would have used, had they not been left out.
+std::size_t values_left_out(const Table&);
+
 /// What options that take such an expression say of it.
 inline constexpr const char* mask_in_words =
     "samples to leave out, as 'theta_o > 80' or 'retro < 8 or f > 100': names are theta_i, phi_i, "

@@ -119,7 +119,8 @@ struct Table {
   std::vector<double> patches;  ///< ∫ cos θ_o dω_o of the patch that each sample's value is the
                                 ///< mean of; empty: points
 
-  /// Samples that an expression left out, for pictures; null: none.
+  std::string mask;  ///< expression that leaves samples out; "": none
+  /// Samples that it left out, for pictures; null: none.
   std::shared_ptr<const Table> left_out;
 
   std::size_t size() const { return values.empty() ? 0 : values[0].size(); }

@@ -139,7 +139,7 @@ Prospect fresnel(const Survey& s, Verdict of_alpha, bool highlight) {
           to < 60                 ? no
           : to < 75 || !highlight ? weakly
                                   : yes,
-          fmt::format("the samples near the half vector reach theta_d = {:.0f}°; Fresnel forms "
+          fmt::format("samples near the mirror direction reach theta_d = {:.0f}°; Fresnel forms "
                       "only differ beyond 60°",
                       to)};
 }
@@ -165,8 +165,8 @@ Prospect kd(const Health& h, const Survey& s) {
   return say(tail <= 0.2      ? yes
              : tail < 2.0 / 3 ? weakly
                               : no,
-             fmt::format("a GGX tail of the highlight would explain {1:.3g} % of the base of "
-                         "{0:.3g} 1/sr at theta_h = {2:.0f}°",
+             fmt::format("far from the highlight, at theta_h = {2:.0f}°, values are {0:.3g} 1/sr; a GGX tail of "
+                         "the highlight would make {1:.3g} % of that",
                          base, 100 * tail, h.peak->base_deg));
 }
 
@@ -201,8 +201,8 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format("{}; estimating the errors that values of one angle share takes at least 8, "
-                      "and two per unknown",
+          fmt::format("{}; errors that values of one angle share are estimated from 8 on, or two "
+                      "for each unknown",
                       counted(n, "incident angle"))};
 }
 
