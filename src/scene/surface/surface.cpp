@@ -29,11 +29,13 @@ constexpr std::size_t channels = 3;
 /// Largest F0 that is taken for a dielectric's: eta = 3.
 constexpr double most_dielectric_f0 = 0.25;
 constexpr double f82_cosine = 1.0 / 7;
+constexpr std::string_view coupled = ".coupled";
+const LobeSpec gltf_coat{"ggx", "smith_ggx.correlated", "schlick.weighted"};
 /// The dearest compensation that renderers ship.
 constexpr std::size_t kulla_conty = 3;
 
-std::string_view name_of_term(const TermUse& t) {
-  return short_id(catalogue()[t.term].id());
+std::string name_of_term(const TermUse& t) {
+  return std::string(short_id(catalogue()[t.term].id()));
 }
 bool all_equal(const std::vector<double>& v) {
   return std::ranges::all_of(v, [&](double x) { return x == v[0]; });
@@ -60,13 +62,12 @@ double number_of(const std::vector<Setting>& all, std::string_view name, double 
   return at == all.end() ? otherwise : at->values[0];
 }
 
-std::string spec_of(const Lobe& l) {
-  return fmt::format("{}/{}/{}", name_of_term(l.ndf), name_of_term(l.masking),
-                     name_of_term(l.fresnel));
+LobeSpec spec_of(const Lobe& l) {
+  return {name_of_term(l.ndf), name_of_term(l.masking), name_of_term(l.fresnel)};
 }
 
 /// Model of those of the settings that it has.
-BoundModel bound(const std::string& spec, const std::vector<Setting>& settings) {
+BoundModel bound(const ModelSpec& spec, const std::vector<Setting>& settings) {
   const Model m = compose(spec, 1);
   std::vector<Setting> own;
   for (const auto& s : settings)
@@ -146,7 +147,7 @@ std::shared_ptr<const TabulatedLobe> tabulated_lobe(const BoundModel& lobe,
   static std::mutex making;
   static std::map<std::pair<std::string, std::vector<double>>, std::shared_ptr<const TabulatedLobe>>
       all;
-  std::pair key{lobe.model.spec, lobe.values};
+  std::pair key{to_text(lobe.model.spec), lobe.values};
   for (const auto& c : colours) key.second.insert(key.second.end(), c.begin(), c.end());
   const std::scoped_lock lock(making);
   if (const auto known = all.find(key); known != all.end()) return known->second;
@@ -161,14 +162,16 @@ std::shared_ptr<const TabulatedLobe> tabulated_lobe(const BoundModel& lobe,
 }  // namespace
 
 std::string Surface::spec() const {
-  return coat ? fmt::format("{}+coat:{}", base.model.spec, coat->model.spec) : base.model.spec;
+  ModelSpec all = base.model.spec;
+  if (coat) all.coat = coat->model.spec.lobes[0];
+  return to_text(all);
 }
 
 std::vector<std::pair<std::string, std::vector<double>>> Surface::parameters() const {
   auto all = named_values(base);
   if (coat)
     for (auto& [name, values] : named_values(*coat))
-      all.emplace_back(fmt::format("{}_{}", name, base.model.lobes.size() + 1), values);
+      all.emplace_back(to_text({name, base.model.lobes.size()}), values);
   return all;
 }
 
@@ -178,8 +181,8 @@ Look::Look(const Material& m, std::shared_ptr<const ImageLight> sky) : sky_(std:
   else
     read(std::get<GltfMaterial>(m.is));
   read_spectrum(m);
-  if (coat_.lobe.empty()) {
-    coat_.lobe = "ggx/smith_ggx.correlated/schlick.weighted";
+  if (coat_.lobe.ndf.empty()) {
+    coat_.lobe = gltf_coat;
     coat_.parameters = {{"alpha", {0.01}}, {"f0", {0.04}}, {"weight", {0}}};
   }
   coat_.absent = number_of(coat_.parameters, "weight", 1) == 0;
@@ -225,16 +228,14 @@ void Look::read(const BoundModel& b, bool coated) {
     const Lobe& lobe = lobes.back();
     coat_.lobe = spec_of(lobe);
     coat_.parameters = settings_of(b, {&lobe.ndf, &lobe.masking, &lobe.fresnel});
-    for (auto& s : coat_.parameters)
-      if (lobes.size() > 1) s.name.resize(s.name.rfind('_'));
+    for (auto& s : coat_.parameters) s.name = parse_parameter(s.name).name;
     lobes.pop_back();
   }
   if (!b.model.diffuse.empty()) {
     const TermUse& term = b.model.diffuse[0];
-    std::string_view kind = name_of_term(term);
+    diffuse_.kind = name_of_term(term);
     diffuse_.coupled = catalogue()[term.term].coupled;
-    if (diffuse_.coupled) kind.remove_suffix(std::string_view(".coupled").size());
-    diffuse_.kind = kind;
+    if (diffuse_.coupled) diffuse_.kind.resize(diffuse_.kind.size() - coupled.size());
     diffuse_.own = foreign_term(term.term) != nullptr;
     const auto given = settings_of(b, {&term});
     if (!diffuse_.own) diffuse_.kd = std::ranges::find(given, "kd", &Setting::name)->values;
@@ -250,19 +251,19 @@ void Look::read(const BoundModel& b, bool coated) {
   if (lobes.empty()) return;
   const Lobe& first = lobes[0];
   first_.any = true;
-  first_.ndf = name_of_term(first.ndf);
-  first_.masking = name_of_term(first.masking);
+  first_.lobe = spec_of(first);
   first_.shape = settings_of(b, {&first.ndf, &first.masking});
-  first_.known = family_of(first_.ndf) && stands_for_smith(first_.masking);
+  first_.known = family_of(first_.lobe.ndf) && stands_for_smith(first_.lobe.masking);
   const double alpha = number_of(first_.shape, "alpha", 1);
   first_.alpha_x = number_of(first_.shape, "alpha_x", alpha);
   first_.alpha_y = number_of(first_.shape, "alpha_y", alpha);
   first_.gamma = number_of(first_.shape, "gamma", 2);
-  read_fresnel(name_of_term(first.fresnel), b, first.fresnel);
+  read_fresnel(first_.lobe.fresnel, b, first.fresnel);
   for (std::size_t l = 1; l < lobes.size(); ++l) {
-    const auto given = settings_of(b, {&lobes[l].ndf, &lobes[l].masking, &lobes[l].fresnel});
-    if (number_of(given, fmt::format("weight_{}", l + 1), 1) == 0) continue;  // there is none of it
-    others_ += '+' + spec_of(lobes[l]);
+    auto given = settings_of(b, {&lobes[l].ndf, &lobes[l].masking, &lobes[l].fresnel});
+    if (number_of(given, to_text({"weight", l}), 1) == 0) continue;  // there is none of it
+    others_.push_back(spec_of(lobes[l]));
+    for (auto& s : given) s.name = to_text({parse_parameter(s.name).name, others_.size()});
     others_settings_.insert(others_settings_.end(), given.begin(), given.end());
   }
 }
@@ -274,7 +275,8 @@ void Look::read_fresnel(std::string_view id, const BoundModel& b, const TermUse&
     if (all_equal(f0) && f0[0] <= most_dielectric_f0) {
       const double eta = IorFromF0<double>::apply(std::array{f0[0]})[0];
       const std::vector<Setting> parameters{{"eta", {eta}}};
-      const BoundModel exact = bound("ggx/smith_ggx.correlated/dielectric", parameters);
+      const BoundModel exact =
+          bound(model_of_lobe("ggx", "smith_ggx.correlated", "dielectric"), parameters);
       read_fresnel("dielectric", exact, exact.model.lobes[0].fresnel);
       return;
     }
@@ -304,13 +306,11 @@ void Look::read(const GltfMaterial& m) {
   const bool turned = m.anisotropy > 0;
   settings.push_back({"alpha_x", {alpha + (1 - alpha) * m.anisotropy * m.anisotropy}});
   settings.push_back({"alpha_y", {alpha}});
-  read(bound(fmt::format(
-                 "lambert.coupled+{}/schlick.f90",
-                 turned ? "ggx_aniso/smith_ggx_aniso.correlated" : "ggx/smith_ggx.correlated"),
-             settings),
+  const std::string ndf = turned ? "ggx_aniso" : "ggx";
+  read(bound({"lambert.coupled", {{ndf, "smith_" + ndf + ".correlated", "schlick.f90"}}}, settings),
        false);
   turn_ = m.anisotropy_rotation;
-  coat_.lobe = "ggx/smith_ggx.correlated/schlick.weighted";
+  coat_.lobe = gltf_coat;
   coat_.parameters = {
       {"alpha",
        {std::max(m.clearcoat_roughness * m.clearcoat_roughness, alpha_parameter.legal.low)}},
@@ -347,7 +347,7 @@ void Look::offer_forms() {
   else
     offer(Effect::coupling, {"off"}, false, "it is given uncoupled");
 
-  const bool gtr = first_.ndf == "gtr";
+  const bool gtr = first_.lobe.ndf == "gtr";
   const std::string as_given = first_.any ? "its lobe is of another kind" : "it has no lobe";
   if (first_.known && !gtr)
     offer(Effect::anisotropy, {"off", "on"}, first_.alpha_x == first_.alpha_y,
@@ -385,7 +385,7 @@ void Look::offer_forms() {
   if (!sky_)
     offer(Effect::environment, {"split_sum"}, false, "no environment lights it");
   else if (diffuse_.own || (first_.any && (!first_.known || !others_.empty())) ||
-           !coat_.lobe.starts_with("ggx"))
+           !coat_.lobe.ndf.starts_with("ggx"))
     offer(Effect::environment, {"quadrature"}, false, "two sums do not stand for its lobes");
   else
     offer(Effect::environment, {"split_sum", "quadrature"});
@@ -428,60 +428,60 @@ Forms Look::plain(Forms f) const {
 
 Surface Look::surface(const Forms& forms) const {
   Surface s;
-  std::string spec;
+  ModelSpec spec;
   Settings settings;
   const auto diffuse = forms.name(Effect::diffuse);
   if (diffuse != "none") {
-    spec = diffuse_.kind == "lambert" || diffuse == "lambert" ? "lambert" : diffuse_.kind;
-    if (forms.name(Effect::coupling) == "on") spec += ".coupled";
+    spec.diffuse = diffuse == "lambert" ? diffuse : diffuse_.kind;
+    if (forms.name(Effect::coupling) == "on") spec.diffuse += coupled;
     if (!diffuse_.own) settings.push_back({"kd", diffuse_.kd});
     settings.insert(settings.end(), diffuse_.others.begin(), diffuse_.others.end());
   }
   if (first_.any) {
-    if (!spec.empty()) spec += '+';
+    LobeSpec lobe = first_.lobe;
     const double alpha = std::sqrt(first_.alpha_x * first_.alpha_y);
     if (first_.known) {
-      const Family& family = *family_of(first_.ndf);
+      const Family& family = *family_of(first_.lobe.ndf);
       const bool anisotropic = forms.name(Effect::anisotropy) == "on";
       const bool tail = forms.name(Effect::tail) == "gtr";
       // GTR under a masking of GGX is held under that one, as it was given.
-      const std::string_view smith = family.name != "gtr"                              ? family.name
-                                     : tail && first_.masking.starts_with("smith_gtr") ? "gtr"
-                                                                                       : "ggx";
+      const std::string_view smith = family.name != "gtr"                            ? family.name
+                                     : tail && lobe.masking.starts_with("smith_gtr") ? "gtr"
+                                                                                     : "ggx";
       const auto masking = forms.name(Effect::masking);
-      spec += anisotropic            ? family.anisotropic
-              : family.name != "gtr" ? family.isotropic
-              : tail                 ? "gtr"
-                                     : "ggx";
+      lobe.ndf = anisotropic            ? family.anisotropic
+                 : family.name != "gtr" ? family.isotropic
+                 : tail                 ? "gtr"
+                                        : "ggx";
       if (masking == "schlick_k")
-        spec += smith == "beckmann" ? "/schlick_beckmann" : "/schlick_ggx.half_alpha";
+        lobe.masking = smith == "beckmann" ? "schlick_beckmann" : "schlick_ggx.half_alpha";
       else
-        spec += fmt::format("/smith_{}{}.{}", smith,
-                            anisotropic && masking == "correlated" ? "_aniso" : "", masking);
+        lobe.masking = fmt::format("smith_{}{}.{}", smith,
+                                   anisotropic && masking == "correlated" ? "_aniso" : "", masking);
       settings.push_back({"alpha_x", {first_.alpha_x}});
       settings.push_back({"alpha_y", {first_.alpha_y}});
       settings.push_back({"alpha", {alpha}});
       settings.push_back({"gamma", {first_.gamma}});
     } else {
-      spec += first_.ndf + '/' + first_.masking;
       settings.insert(settings.end(), first_.shape.begin(), first_.shape.end());
     }
     const auto fresnel = forms.name(Effect::fresnel);
-    spec += '/';
     if (fresnel == "exact" || (fresnel == "f82" && fresnel_.id == "f82")) {
-      spec += fresnel_.id;
+      lobe.fresnel = fresnel_.id;
       settings.insert(settings.end(), fresnel_.parameters.begin(), fresnel_.parameters.end());
     } else {
-      spec += fresnel;
+      lobe.fresnel = fresnel;
       settings.push_back({"f0", fresnel_.f0});
       settings.push_back({"f82_tint", fresnel_.f82_tint});
     }
+    spec.lobes.push_back(std::move(lobe));
   }
   if (std::ranges::find(settings, "alpha", &Setting::name) == settings.end())
     settings.push_back({"alpha", {diffuse_.alpha}});
   settings.insert(settings.end(), others_settings_.begin(), others_settings_.end());
-  s.base = bound(spec + others_, settings);
-  if (forms.name(Effect::coat) == "on") s.coat = bound(coat_.lobe, coat_.parameters);
+  spec.lobes.insert(spec.lobes.end(), others_.begin(), others_.end());
+  s.base = bound(spec, settings);
+  if (forms.name(Effect::coat) == "on") s.coat = bound({"", {coat_.lobe}}, coat_.parameters);
   const bool equations = forms.name(Effect::fresnel) == "exact";
   if (equations && forms.name(Effect::spectrum) == "spectral") s.spectrum = fresnel_.spectrum;
   s.single = forms.name(Effect::precision) == "float";
@@ -529,8 +529,8 @@ std::shared_ptr<const TabulatedLobe> Look::tabulated() const {
   auto settings = settings_of(lobe, {&lobe.model.lobes[0].ndf});
   settings.push_back({"eta", {metal.eta.begin(), metal.eta.end()}});
   settings.push_back({"k", {metal.k.begin(), metal.k.end()}});
-  return tabulated_lobe(bind_model(spec_of(lobe.model.lobes[0]), settings, colours.size()),
-                        colours);
+  return tabulated_lobe(
+      bind_model(ModelSpec{"", {spec_of(lobe.model.lobes[0])}}, settings, colours.size()), colours);
 }
 
 std::shared_ptr<const ImageLit> Look::image_lit(const Surface& s, const Forms& forms) const {

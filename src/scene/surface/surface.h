@@ -115,7 +115,7 @@ class Look {
   struct First {
     bool known = false;  ///< its distribution and masking are of those that forms are of
     bool any = false;
-    std::string ndf, masking;  ///< as given
+    LobeSpec lobe;  ///< as given
     double alpha_x = 1, alpha_y = 1, gamma = 2;
     Settings shape;  ///< of D and V as given
   } first_;
@@ -129,10 +129,10 @@ class Look {
     std::optional<SpectralMetal<double>> spectrum;
     bool is_named = false;  ///< a metal
   } fresnel_;
-  std::string others_;  ///< spec of further lobes, "+…"
+  std::vector<LobeSpec> others_;  ///< further lobes
   Settings others_settings_;
   struct Coat {
-    std::string lobe;
+    LobeSpec lobe;
     Settings parameters;
     double width = 0.1, mean_width = 0.1;  ///< the wider of both, and their geometric mean
     bool absent = false;

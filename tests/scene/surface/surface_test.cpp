@@ -109,7 +109,7 @@ TEST(Look, LeavesTermsThatNoFormStandsForAsTheyAre) {
                                  {"kd=0.5,0.3,0.1", "r=0.7", "alpha=0.3", "tail=0.4"}));
   for (const auto& forms : {look.structural(), look.exact()}) {
     const auto s = look.surface(forms);
-    EXPECT_EQ(s.base.model.spec, "eon+student_t/smith_student_t.correlated/conductor");
+    EXPECT_EQ(to_text(s.base.model.spec), "eon+student_t/smith_student_t.correlated/conductor");
     const auto is = [&](const char* name) { return s.base.values[s.base.model.find(name)->first]; };
     EXPECT_EQ(is("kd"), 0.5);
     EXPECT_EQ(is("r"), 0.7);
@@ -118,6 +118,16 @@ TEST(Look, LeavesTermsThatNoFormStandsForAsTheyAre) {
   EXPECT_EQ(look.offer(Effect::diffuse).why, "its diffuse term is of another kind");
   const Look mixed(test::material("ggx/smith_student_t.correlated/conductor", {"tail=0.4"}));
   EXPECT_EQ(mixed.surface(mixed.structural()).spec(), "ggx/smith_student_t.correlated/conductor");
+}
+
+TEST(Look, KeepsTheParametersOfALobeBehindOneWithoutWeight) {
+  const std::string weighted = "+beckmann/smith_beckmann.correlated/schlick.weighted";
+  const Look look(test::material("ggx/smith_ggx.correlated/schlick" + weighted + weighted,
+                                 {"weight_2=0", "alpha_3=0.37", "weight_3=0.5"}));
+  const auto& base = look.surface(look.structural()).base;
+  ASSERT_EQ(base.model.lobes.size(), 2U);
+  EXPECT_EQ(base.values[base.model.find("alpha_2")->first], 0.37);
+  EXPECT_EQ(base.values[base.model.find("weight_2")->first], 0.5);
 }
 
 TEST(Look, GivesTheExactFormLast) {
