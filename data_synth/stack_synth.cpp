@@ -137,7 +137,7 @@ Stack synthesize_stack(const BoundModel& b, const StackSynthOptions& o, const st
   stack.path = path_in("stack.json");
   stack.values = o.values;
   if (normals) stack.normals = "normals.exr";
-  stack.truth = StackTruth{b.model.spec, "parameters.exr", o.noise, o.seed};
+  stack.truth = StackTruth{to_text(b.model.spec), "parameters.exr", o.noise, o.seed};
   const std::vector<std::string> names =
       channels == 1 ? std::vector<std::string>{"Y"} : std::vector(colours.begin(), colours.end());
   std::vector<std::unique_ptr<RowsOut>> files;

@@ -83,7 +83,7 @@ Table rgl_of(const BoundModel& b, const SynthOptions& o) {
         fmt::format("an RGL table has 1 or 3 channels, the colours given have {}", channels));
   if (b.model.anisotropic)
     throw wrong_usage(fmt::format("model '{}' is anisotropic: layout rgl has one azimuth of light",
-                                  b.model.spec));
+                                  to_text(b.model.spec)));
   if (o.noise > 0 || o.outliers > 0)
     throw wrong_usage(
         "layout rgl is what renderers draw from and takes neither noise nor outliers");
@@ -146,7 +146,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o, const Aperture& ape
   if (o.layout == Layout::rgl) {
     if (aperture) throw wrong_usage("aperture: layout rgl is a grid of points");
     Table t = rgl_of(b, o);
-    t.truth = Truth{b.model.spec, named_values(b), 0, o.floor, 0, o.seed};
+    t.truth = Truth{to_text(b.model.spec), named_values(b), 0, o.floor, 0, o.seed};
     t.notes.emplace_back("layout", name_of(o.layout));
     return t;
   }
@@ -163,7 +163,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o, const Aperture& ape
     throw wrong_usage(
         fmt::format("model '{}' is anisotropic: layout {} does not say how the surface was turned; "
                     "those of direction lists do: utia, in_plane, hemisphere, random",
-                    b.model.spec, name_of(o.layout)));
+                    to_text(b.model.spec), name_of(o.layout)));
   if (aperture && t.grid())
     throw wrong_usage(
         fmt::format("aperture: layout {} is a grid of points; those of direction lists take one: "
@@ -213,7 +213,7 @@ Table synthesize(const BoundModel& b, const SynthOptions& o, const Aperture& ape
     for (auto& plane : t.errors)
       for (double& v : plane) v = std::max(o.noise * v, 1e-300);
   }
-  t.truth = Truth{b.model.spec, named_values(b), o.noise, o.floor, o.outliers, o.seed};
+  t.truth = Truth{to_text(b.model.spec), named_values(b), o.noise, o.floor, o.outliers, o.seed};
   t.notes.emplace_back("layout", name_of(o.layout));
   return t;
 }

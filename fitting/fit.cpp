@@ -60,12 +60,12 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
 /// Takes a fit of the diffuse terms without the lobes, and its residuals: of lobes that are not known neither those beside them nor
 /// their highlights say anything.  False where the cost and the residuals stay those of the model with its lobes.
 bool take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColumns& columns) {
-  const auto diffuse = parse_spec(d.model)[0];
-  if (diffuse.size() != 1 || catalogue()[find_term("diffuse." + diffuse[0])].coupled ||
-      find_preset(diffuse[0]))  // as "disney", which alone is the name of a whole model
+  const auto diffuse = parse_model(d.model).diffuse;
+  if (diffuse.empty() || catalogue()[find_term(diffuse, Role::diffuse)].coupled ||
+      find_preset(diffuse))  // as "disney", which alone is the name of a whole model
     return false;
   const std::size_t fixed = o.fixed.size();
-  o = options_for(std::move(o), diffuse[0]);
+  o = options_for(std::move(o), diffuse);
   const bool holds_lobe = o.fixed.size() < fixed;
   o.bin_sensitivity = false;
   o.certificate = Certify::none;
@@ -136,7 +136,7 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.
 void expect_values(const Table& t, const BoundModel& m) {
-  if (!names_own_file(m.model.spec)) return;
+  if (!names_own_file(to_text(m.model.spec))) return;
   const SampleAngles sample(t);
   std::size_t missing = 0, first = 0;
   std::vector<FrameAngles<double>> angles;
@@ -161,7 +161,7 @@ void expect_values(const Table& t, const BoundModel& m) {
   if (missing == 0) return;
   const auto [l, v] = sample.directions(first);
   throw bad_input(
-      m.model.spec, fmt::format("{} of {} samples", missing, t.size()),
+      to_text(m.model.spec), fmt::format("{} of {} samples", missing, t.size()),
       fmt::format("no value, first at θ_i {:.4g}°, θ_o {:.4g}°", std::acos(l.z) / degree,
                   std::acos(v.z) / degree),
       "a number; `gonio audit` names its inputs without one, and --mask leaves samples out");
@@ -231,7 +231,7 @@ FitResult fit_and_judge(const Table& t,
   }
 
   FitDocument d;
-  d.model = p.start.model.spec;
+  d.model = to_text(p.start.model.spec);
   d.channels = t.channels;
   describe(d, p, f.model.values, u);
   d.metric = name_of(o.metric);

@@ -144,7 +144,7 @@ void bind_models(nb::module_& m) {
   const nb::call_guard<nb::gil_scoped_release> others_run;
   nb::class_<ModelArgument>(m, "Model")
       .def_ro("channels", &ModelArgument::channels)
-      .def_prop_ro("spec", [](const ModelArgument& a) { return a.model.model.spec; });
+      .def_prop_ro("spec", [](const ModelArgument& a) { return to_text(a.model.model.spec); });
   m.def(
       "model",
       [](const std::string& spec, const Settings& set) {

@@ -24,7 +24,6 @@ namespace {
 
 constexpr Numbers shares{0, 1}, amounts{0, Numbers::any};
 constexpr Entries few{1, 64}, parameters{0, 100};
-constexpr std::string_view coat_word = "coat:";
 
 }  // namespace
 
@@ -141,16 +140,13 @@ struct Description<Choice> {
   }
 };
 
-std::string Shipped::spec() const {
-  std::string s = model;
-  if (const auto at = s.find(coat_word); at != s.npos) s.erase(at, coat_word.size());
-  return s;
+ModelSpec Shipped::spec() const {
+  return coat_as_lobe(parse_model(model));
 }
 
 Model Shipped::composed() const {
-  const auto own = spec();
-  const Preset* preset = find_preset(own);
-  return compose(preset ? preset->spec : std::string_view(own), 3);
+  std::vector<Setting> unset;
+  return compose(resolve_preset(spec(), unset), 3);
 }
 
 bool has_range(const Choice& c) {
@@ -213,8 +209,7 @@ void check_coat(const JsonReader& root,
                 const char* model,
                 const char* coating,
                 const char* scattering) {
-  const auto at = s.model.find(coat_word);
-  if ((at != s.model.npos) != s.coating.has_value()) {
+  if (parse_model(s.model).coat.has_value() != s.coating.has_value()) {
     if (s.coating)
       root.at(coating).fail(fmt::format("a {} with a coat, \"coat:\" before its last lobe", model));
     root.at(model).fail(fmt::format("{}, view or both, beside a coat", coating));
@@ -223,8 +218,7 @@ void check_coat(const JsonReader& root,
   const Model m = s.composed();
   const bool coupled =
       std::ranges::any_of(m.diffuse, [](const TermUse& t) { return catalogue()[t.term].coupled; });
-  if (m.lobes.size() != 1 || m.diffuse.empty() || coupled || at == 0 || s.model[at - 1] != '+' ||
-      s.model.find('+', at) != s.model.npos)
+  if (m.lobes.size() != 1 || m.diffuse.empty() || coupled)
     root.at(model).fail("DIFFUSE+coat:LOBE, the diffuse terms uncoupled");
   if (s.scattering != Bounces::single) root.at(scattering).fail("single, where there is a coat");
 }
@@ -269,8 +263,9 @@ void share_parameters(const JsonReader& root, Choice& c) {
   const auto refuse_unknown = [&](const char* key, const std::vector<Setting>& settings,
                                   const std::vector<const Shipped*>& sides) {
     for (const auto& s : settings) {
-      if (std::ranges::any_of(
-              sides, [&](const Shipped* side) { return takes_parameter(side->spec(), s.name); }))
+      if (std::ranges::any_of(sides, [&](const Shipped* side) {
+            return takes_parameter(to_text(side->spec()), s.name);
+          }))
         continue;
       std::vector<std::string> of;
       for (const Shipped* side : sides) {
@@ -290,7 +285,7 @@ void share_parameters(const JsonReader& root, Choice& c) {
   const auto taken_by = [&](const Shipped& side) {
     std::vector<Setting> own;
     for (const auto& s : given)
-      if (takes_parameter(side.spec(), s.name)) own.push_back(s);
+      if (takes_parameter(to_text(side.spec()), s.name)) own.push_back(s);
     return own;
   };
   const auto own = taken_by(c.shipped);
@@ -423,7 +418,7 @@ void add_width(std::vector<Setting>& settings, const Shipped& s, const Model& m,
                        : s.alpha == AlphaMap::square ? roughness * roughness
                                                      : std::pow(roughness, 4);
   const auto sets_own = [&](const Parameter& p) { return has(settings, p.name); };
-  if (const Preset* preset = find_preset(s.spec());
+  if (const Preset* preset = find_preset(s.model);
       preset && std::ranges::any_of(preset->parameters, sets_own))
     settings.push_back({"roughness", {std::sqrt(alpha)}});
   else if (m.find("alpha"))

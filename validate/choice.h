@@ -46,7 +46,7 @@ struct Shipped {
   std::optional<Coating> coating{};  ///< of a coat
 
   /// The model without the word "coat:".
-  std::string spec() const;
+  ModelSpec spec() const;
   /// The model of that spec, or of the preset's, in three channels.
   Model composed() const;
 };

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "brdf/formula/coat.h"
 #include "brdf/model/evaluate.h"
 #include "geometry/half_difference.h"
 #include "integrate/albedo/directional_albedo.h"
@@ -31,7 +32,8 @@ std::vector<std::vector<double>> Coated::albedos(std::span<const double> mu) con
   const auto below = albedos_of(below_, mu);
   if (coating_ == Coating::view) {
     for (std::size_t m = 0; m < mu.size(); ++m)
-      for (std::size_t c = 0; c < out[m].size(); ++c) out[m][c] += (1 - out[m][c]) * below[m][c];
+      for (std::size_t c = 0; c < out[m].size(); ++c)
+        out[m][c] += left_by_view(out[m][c]) * below[m][c];
     return out;
   }
   // ∫ (1 − E(l)) f_below cos θ_l dω_l; rings of directions share E.
@@ -48,8 +50,8 @@ std::vector<std::vector<double>> Coated::albedos(std::span<const double> mu) con
     for (std::size_t c = 0; c < out[m].size(); ++c) {
       double sum = 0;
       for (std::size_t i = 0; i < nodes.size(); ++i)
-        sum += nodes[i].weight * f[c][i] * (1 - coat[i / turns][c]);
-      out[m][c] += (1 - out[m][c]) * sum;
+        sum += nodes[i].weight * f[c][i] * left_by_view(coat[i / turns][c]);
+      out[m][c] += left_by_view(out[m][c]) * sum;
     }
   }
   return out;
@@ -60,7 +62,8 @@ std::vector<double> Coated::left_below(double light, double view) const {
   const auto e = albedos_of(coat_, at);
   std::vector<double> left;
   for (std::size_t c = 0; c < e[1].size(); ++c)
-    left.push_back((1 - e[1][c]) * (coating_ == Coating::both ? 1 - e[0][c] : 1));
+    left.push_back(coating_ == Coating::both ? left_by_both(e[0][c], e[1][c])
+                                             : left_by_view(e[1][c]));
   return left;
 }
 

@@ -12,13 +12,8 @@
 
 namespace gonio::validating {
 
-/// Lobe of a coated model, and the diffuse terms below it.
-///
-///   f(l, v) = f_coat + (1 − E(v)) f_below                    Coating::view
-///   f(l, v) = f_coat + (1 − E(l)) (1 − E(v)) f_below         Coating::both
-///
-/// with E the coat's directional albedo.  The first has the albedo E + (1 − E) E_below, so that on white all light comes back, and
-/// changes where light and view change places.  The second does not change, and keeps back what E takes of the light again.
+/// Lobe of a coated model on the diffuse terms below it, by view or by both as brdf/formula/coat.h has it, R the coat's directional
+/// albedo.
 class Coated {
  public:
   /// \param coated  of Shipped::spec()

@@ -44,7 +44,7 @@ BudgetCheck check_nonfinite(const Choice& c) {
   Question q;
   q.arithmetic.number = c.number;
   q.safe_from = false;
-  q.subject = subjects_of(middle(c).model.spec).front();
+  q.subject = subjects_of(to_text(middle(c).model.spec)).front();
   const auto narrow = [&](const std::string& name, double low, double high) {
     const auto at = std::ranges::find(q.subject.inputs, name, &Input::name);
     if (at == q.subject.inputs.end()) return;

@@ -80,8 +80,9 @@ ErrorAt against_reference(const Choice& c, const Effort& effort, auto difference
         const auto of = [&](const Shipped& side) {
           const BoundModel b = bound(c, side, s, roughness);
           const auto compute = [&] { return albedos(side, b, mu, effort); };
-          return side.coating ? compute()
-                              : known_or(effort, key_of(b.model.spec, side, b.values, mu), compute);
+          return side.coating
+                     ? compute()
+                     : known_or(effort, key_of(to_text(b.model.spec), side, b.values, mu), compute);
         };
         const auto shipped = of(c.shipped), reference = of(c.reference);
         std::vector<double> out;

@@ -24,25 +24,18 @@ struct Candidate {
   std::size_t changes;  ///< from the choice that was given
 };
 
-/// Distribution of the only lobe, and what of the spec stands before it.
-struct OneLobe {
-  std::string before, ndf, masking, fresnel;
-};
-OneLobe one_lobe(const Choice& c) {
+/// The choice's spec, whose only lobe is its first.
+ModelSpec one_lobe(const Choice& c) {
   const Model m = c.shipped.composed();
   if (m.lobes.size() != 1 || m.anisotropic || c.shipped.coating)
     throw bad_input(c.path, "/model", fmt::format("'{}'", c.shipped.model),
                     "one isotropic lobe of D/V/F that is no coat: a suggestion exchanges those; of "
                     "a shader name one function, FILE:D/V/F");
-  OneLobe o;
-  for (const auto& d : m.diffuse) o.before += std::string(short_id(catalogue()[d.term].id())) + '+';
   const auto name = [](const TermUse& t) {
     return std::string(short_id(catalogue()[t.term].id()));
   };
-  o.ndf = name(m.lobes[0].ndf);
-  o.masking = name(m.lobes[0].masking);
-  o.fresnel = name(m.lobes[0].fresnel);
-  return o;
+  const auto& [ndf, masking, fresnel] = m.lobes[0];
+  return {m.diffuse.empty() ? "" : name(m.diffuse[0]), {{name(ndf), name(masking), name(fresnel)}}};
 }
 
 /// True of a term that the substances give all parameters, or that has them from the choice.
@@ -62,14 +55,15 @@ bool can_be(const Choice& c) {
 }
 
 std::vector<Candidate> candidates(const Choice& c) {
-  const OneLobe own = one_lobe(c);
+  const ModelSpec given = one_lobe(c);
+  const LobeSpec& own = given.lobes[0];
   constexpr Bounces ways[] = {Bounces::single, Bounces::turquin, Bounces::kulla_conty};
   std::vector<Candidate> all;
   const auto add = [&](const std::string& masking, const std::string& fresnel, Bounces way) {
     Candidate x{c, 0,
                 std::size_t{masking != own.masking} + std::size_t{fresnel != own.fresnel} +
                     std::size_t{way != c.shipped.scattering}};
-    x.choice.shipped.model = fmt::format("{}{}/{}/{}", own.before, own.ndf, masking, fresnel);
+    x.choice.shipped.model = to_text(ModelSpec{given.diffuse, {{own.ndf, masking, fresnel}}});
     x.choice.shipped.scattering = way;
     if (!can_be(x.choice)) return;
     x.choice.budgets.operations = HUGE_VAL;

@@ -52,8 +52,8 @@ Exit run(const EvalCall& o) {
     if (o.bins) throw wrong_usage("--bins goes with a table, not with a model");
     const auto model = model_argument(read_as(o.what, o.reading), parse_settings(o.set));
     evaluate_at(model.model, at, columns_for(t, model.channels));
-    document["model"] = model.model.model.spec;
-    add_own_files(document, model.model.model.spec);
+    document["model"] = to_text(model.model.model.spec);
+    add_own_files(document, to_text(model.model.model.spec));
   }
   if (!o.output.empty()) {
     OutputFile out(o.output);

@@ -55,7 +55,7 @@ Exit run(const ExploreCall& o) {
       all.emplace_back(std::move(*t));
     } else {
       auto m = explore_model(w, parse_settings(o.set), channels);
-      const std::string& spec = m.model.model.model.spec;
+      const auto spec = to_text(m.model.model.model.spec);
       if (names_own_file(spec))
         throw wrong_usage(
             fmt::format("{}: a page has the catalogue's terms only, no functions of files", spec));

@@ -70,11 +70,11 @@ struct Planned {
 Planned planned(const std::string& path, const std::string& name) {
   using scene::Effect;
   const auto material = scene::read_planned_material(path, name);
-  for (const auto& [effect, plain] :
-       {std::pair(Effect::coat, "off"), {Effect::spectrum, "rgb"}, {Effect::precision, "float"}})
-    if (const auto form = material.form(effect); !form.empty() && form != plain)
+  const auto& forms = material.forms;
+  for (const auto effect : {Effect::coat, Effect::spectrum, Effect::precision})
+    if (forms.keeps(effect))
       throw wrong_usage(fmt::format("'{}' keeps {} '{}', which no shader is written of", name,
-                                    name_of(effect), form));
+                                    name_of(effect), forms.name(effect)));
   std::vector<Setting> settings;
   for (const auto& [parameter, values] : material.parameters)
     settings.push_back({parameter, values});
@@ -90,15 +90,12 @@ Planned planned(const std::string& path, const std::string& name) {
   for (const auto& parameter : p.model.model.parameters)
     if (std::ranges::find(p.model.given, parameter.name) == p.model.given.end())
       throw bad("no " + parameter.name);
-  if (const auto form = material.form(Effect::compensation); !form.empty() && form != "none") {
-    if (form == "tabulated")
-      throw wrong_usage(
-          fmt::format("'{}' keeps compensation 'tabulated', a table of random walks that no shader "
-                      "is written of",
-                      name));
-    p.compensation = find_value<shader::Compensation>(form);
-    if (!p.compensation) throw bad("compensation " + std::string(form));
-  }
+  if (forms[Effect::compensation] == scene::Form::tabulated)
+    throw wrong_usage(
+        fmt::format("'{}' keeps compensation 'tabulated', a table of random walks that no shader "
+                    "is written of",
+                    name));
+  p.compensation = find_value<shader::Compensation>(forms.name(Effect::compensation));
   return p;
 }
 

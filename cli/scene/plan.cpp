@@ -33,9 +33,10 @@ std::string unit_of(const Tolerance& t) {
 
 void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
   const bool looked_up =
-      m.needs_table() || std::ranges::any_of(m.effects, [](const auto& e) {
-        return e.effect == Effect::environment && e.form == "split_sum" && e.why == Why::measured;
-      });
+      m.needs_table() ||
+      (m.forms[Effect::environment] == Form::split_sum &&
+       std::ranges::find(m.effects, Effect::environment, &PlannedEffect::effect)->why ==
+           Why::measured);
   const auto operations =
       fmt::format("{}{}",
                   m.ops_saved < 0 ? fmt::format("{:.2g} × the operations", 1 - m.ops_saved)

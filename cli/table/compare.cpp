@@ -81,7 +81,7 @@ Exit run(const CompareCall& o) {
     say("means over cones of {:.4g}° (light) and {:.4g}° (detector), as in the fit\n",
         aperture_deg[0], aperture_deg[1]);
   if (o.json)
-    fmt::print("{}", to_json(Comparison{o.file, {m.model.spec, named_values(m)}, r}));
+    fmt::print("{}", to_json(Comparison{o.file, {to_text(m.model.spec), named_values(m)}, r}));
   else
     print(counts.used, r);
   return Exit::done;

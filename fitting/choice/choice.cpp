@@ -133,7 +133,7 @@ std::vector<std::string> models_asked(std::vector<std::string> models) {
       throw wrong_usage(fmt::format("--models: '{}' is there twice", models[k]));
   for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table
     std::vector<Setting> none;
-    compose(resolve_preset(m, none), 1);
+    compose(resolve_preset(parse_model(m), none), 1);
   }
   return models;
 }

@@ -172,10 +172,10 @@ Export export_fit(ExportTarget to,
   const auto judged = fixed_angles(0), fitted = fixed_angles(export_directions);
   const auto wanted = evaluate(fit, judged), learned = evaluate(fit, fitted);
   const auto scale = scale_of(wanted, surface), learned_scale = scale_of(learned, surface);
-  Export best{to, path, fit.model.spec, {}, {}, tolerance};
+  Export best{to, path, to_text(fit.model.spec), {}, {}, tolerance};
   bool first = true;
   for (auto& form : target.forms(surface)) {
-    Export e{to, path, fit.model.spec, {}, {}, tolerance};
+    Export e{to, path, to_text(fit.model.spec), {}, {}, tolerance};
     e.lost = target.lost(fit, surface, form.parameters);
     e.clamped = clamp(form.parameters);
     auto p = form.parameters;

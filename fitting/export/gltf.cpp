@@ -8,6 +8,7 @@
 
 #include "base/base64.h"
 #include "base/json/reader.h"
+#include "brdf/formula/coat.h"
 #include "brdf/formula/masking.h"
 #include "brdf/formula/ndf_anisotropic.h"
 #include "brdf/model/evaluate.h"
@@ -111,7 +112,7 @@ std::vector<std::vector<double>> gltf_values(const TargetParameters& p,
       const double reflected = schlick<double>(f0[c], rest) * dv;
       const double base =
           metal ? reflected : below * color[c] / std::numbers::pi + strength * reflected;
-      f[c][i] = (1 - taken) * base + on_top;
+      f[c][i] = left_by_view(taken) * base + on_top;
     }
   }
   return f;

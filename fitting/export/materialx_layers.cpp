@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brdf/formula/coat.h"
 #include "brdf/formula/diffuse.h"
 #include "brdf/formula/masking.h"
 #include "brdf/formula/ndf_anisotropic.h"
@@ -41,7 +42,7 @@ class Prepared {
       f[c] = layer_.weight * channel.tint * Turquin<double>::apply(std::array{dv * r, e, r})[0];
       const double single = channel.f0 * e_a + channel.f90 * e_b;
       const double albedo = Turquin<double>::apply(std::array{single, e, r})[0];
-      through[c] = 1 - layer_.weight * albedo;
+      through[c] = left_by_view(layer_.weight * albedo);
       mean += through[c] / static_cast<double>(layer_.channels.size());
     }
     if (layer_.grey_through) std::ranges::fill(through, mean);

@@ -32,21 +32,15 @@
 namespace gonio {
 namespace {
 
-std::string ending_of(std::size_t lobe) {
-  return lobe == 0 ? "" : fmt::format("_{}", lobe + 1);
-}
-
 /// Names of the catalogue for Mitsuba's.
 std::string catalogue_name(const std::string& name) {
-  const auto i = name.rfind('_');
-  const bool later =
-      i != std::string::npos && i + 1 < name.size() && '2' <= name[i + 1] && name[i + 1] <= '9';
-  const std::string stem = later ? name.substr(0, i) : name, ending = later ? name.substr(i) : "";
-  if (stem == "reflectance") return "kd";
-  if (stem == "alpha_u") return "alpha_x" + ending;
-  if (stem == "alpha_v") return "alpha_y" + ending;
-  if (stem == "specular_reflectance") return "weight" + ending;
-  return stem + ending;
+  auto p = parse_parameter(name);
+  for (const auto& [ours, theirs] : {std::pair("kd", "reflectance"),
+                                     {"alpha_x", "alpha_u"},
+                                     {"alpha_y", "alpha_v"},
+                                     {"weight", "specular_reflectance"}})
+    if (p.name == theirs) p.name = ours;
+  return to_text(p);
 }
 
 constexpr std::array band_edges{485.0, 590.0};
@@ -91,43 +85,42 @@ bool is_grey(const std::vector<double>& v) {
   return std::ranges::count(v, v[0]) == std::ssize(v);
 }
 bool is_index(const std::string& name) {
-  return name.starts_with("eta") || name == "k" || name.starts_with("k_");
+  const auto of_term = parse_parameter(name).name;
+  return of_term == "eta" || of_term == "k";
 }
 
 std::vector<TargetForm> mitsuba_forms(const Surface& s) {
-  std::string spec;
+  ModelSpec spec;
   TargetForm form;
   auto& p = form.parameters;
   const bool diffuse = s.largest_kd() > 0 || s.lobes.empty();
   if (diffuse) {
-    spec = "lambert";
+    spec.diffuse = "lambert";
     p.push_back({"reflectance", s.kd});
   }
   for (std::size_t l = 0; l < s.lobes.size(); ++l) {
     const auto& lobe = s.lobes[l];
-    const auto end = ending_of(l);
     const bool anisotropic = lobe.alpha_x != lobe.alpha_y;
-    spec += spec.empty() ? "" : "+";
-    spec += anisotropic ? "ggx_aniso/smith_ggx_aniso.separable/conductor.weighted"
-                        : "ggx/smith_ggx.separable/conductor.weighted";
+    const std::string kind = anisotropic ? "ggx_aniso" : "ggx";
+    spec.lobes.push_back({kind, "smith_" + kind + ".separable", "conductor.weighted"});
     const Range width{1e-4, 1};
     if (anisotropic) {
-      p.push_back({"alpha_u" + end, {lobe.alpha_x}, width});
-      p.push_back({"alpha_v" + end, {lobe.alpha_y}, width});
+      p.push_back({to_text({"alpha_u", l}), {lobe.alpha_x}, width});
+      p.push_back({to_text({"alpha_v", l}), {lobe.alpha_y}, width});
     } else {
-      p.push_back({"alpha" + end, {lobe.alpha_x}, width});
+      p.push_back({to_text({"alpha", l}), {lobe.alpha_x}, width});
     }
-    p.push_back({"eta" + end, lobe.eta, {0.001, 20}});
-    p.push_back({"k" + end, lobe.k, {0, 100}, lobe.is_metal()});
+    p.push_back({to_text({"eta", l}), lobe.eta, {0.001, 20}});
+    p.push_back({to_text({"k", l}), lobe.k, {0, 100}, lobe.is_metal()});
     // Of a metal the index says how much it reflects; of a dielectric it says the angles, too.
-    p.push_back({"specular_reflectance" + end, {lobe.weight}, {0, 1}, !lobe.is_metal()});
+    p.push_back({to_text({"specular_reflectance", l}), {lobe.weight}, {0, 1}, !lobe.is_metal()});
   }
   const auto evaluated = [spec, tangent = s.tangent_deg, channels = s.channels](
                              const TargetParameters& now,
                              std::span<const FrameAngles<double>> angles) {
     std::vector<Setting> settings;
     for (const auto& x : now) settings.push_back({catalogue_name(x.name), x.values});
-    if (spec.find("aniso") != spec.npos) settings.push_back({"tangent", {tangent}});
+    if (compose(spec, 1).anisotropic) settings.push_back({"tangent", {tangent}});
     return evaluate(bind_model(spec, std::move(settings), channels), angles);
   };
   form.values = evaluated;
@@ -143,6 +136,7 @@ std::vector<TargetForm> mitsuba_forms(const Surface& s) {
                v[2] * share_of_band(2, nm);
       }));
       x.values.assign(rgb.begin(), rgb.end());
+      for (double& v : x.values) v = std::max(v, 0.0);  // bands cut at 0 may leave less
     }
     return evaluated(now, angles);
   });
@@ -223,7 +217,7 @@ std::string mitsuba_file(const Export& e, const std::string& fit) {
   };
   const auto* reflectance = find("reflectance");
   std::size_t lobes = 0;
-  while (find("eta" + ending_of(lobes))) ++lobes;
+  while (find(to_text({"eta", lobes}))) ++lobes;
   double diffuse_share = reflectance ? 1 : 0;
   if (reflectance && lobes > 0)  // as small as leaves kd/share within 1
     diffuse_share = std::clamp(*std::ranges::max_element(*reflectance), 0.5, 0.99);
@@ -233,16 +227,15 @@ std::string mitsuba_file(const Export& e, const std::string& fit) {
                                           rgb("reflectance", *reflectance, 1 / diffuse_share) +
                                           "</bsdf>\n");
   for (std::size_t l = 0; l < lobes; ++l) {
-    const auto end = ending_of(l);
     const double share = (1 - diffuse_share) / static_cast<double>(lobes);
     std::string one =
         "<bsdf type=\"roughconductor\">\n<string name=\"distribution\" value=\"ggx\"/>\n";
     for (const char* name : {"alpha", "alpha_u", "alpha_v"})
-      if (const auto* v = find(name + end))
+      if (const auto* v = find(to_text({name, l})))
         one += fmt::format("<float name=\"{}\" value=\"{}\"/>\n", name, xml_numbers(*v));
-    for (const char* name : {"eta", "k"}) one += index(name, *find(name + end));
+    for (const char* name : {"eta", "k"}) one += index(name, *find(to_text({name, l})));
     one += fmt::format("<spectrum name=\"specular_reflectance\" value=\"{}\"/>\n</bsdf>\n",
-                       xml_numbers({(*find("specular_reflectance" + end))[0] / share}));
+                       xml_numbers({(*find(to_text({"specular_reflectance", l})))[0] / share}));
     parts.emplace_back(share, std::move(one));
   }
   auto [left, all] = parts.back();

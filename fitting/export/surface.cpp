@@ -117,9 +117,8 @@ Surface surface_of(const BoundModel& fit) {
   s.tangent_deg = value("tangent", 0, 0);
   s.diffuse_roughness = value("r", 0, value("sigma", 0, 0));
   for (std::size_t l = 0; l < b.model.lobes.size(); ++l) {
-    const std::string ending = l == 0 ? "" : "_" + std::to_string(l + 1);
     const auto own = [&](const char* name, std::size_t c, double otherwise) {
-      return value(name + ending, c, otherwise);
+      return value(to_text({name, l}), c, otherwise);
     };
     SurfaceLobe lobe;
     const double alpha = own("alpha", 0, 1);
@@ -171,7 +170,7 @@ std::vector<std::string> lost_by_all(const BoundModel& fit,
     const auto& l = fit.model.lobes[n];
     const auto id = short_id(catalogue()[l.ndf.term].id());
     const bool has_exponent = id == "gtr" || id == "student_t" || id == "shape_invariant";
-    const auto* gamma = fit.model.find(n == 0 ? "gamma" : "gamma_" + std::to_string(n + 1));
+    const auto* gamma = fit.model.find(to_text({"gamma", n}));
     exponent |= has_exponent && !(id == "gtr" && gamma && fit.values[gamma->slot(0)] == 2);
     distribution |= !has_exponent && id != "ggx" && id != "ggx_aniso";
     const auto g = short_id(catalogue()[l.masking.term].id());

@@ -16,14 +16,14 @@
 #include "table/format/measured_by.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
 
 /// True of kd, weight, and those of another lobe.
 bool is_linear(const std::string& name) {
-  return name == "kd" || name == "weight" || name.starts_with("weight_");
+  const auto of_term = parse_parameter(name).name;
+  return of_term == "kd" || of_term == "weight";
 }
 
 void multiply(BoundModel& b, double factor) {
@@ -46,19 +46,15 @@ FitOptions with_weights(FitOptions o) {
     for (const auto& s : *settings)
       if (is_linear(s.name))
         throw wrong_usage(fmt::format("scale free: found {} given, expected it open", s.name));
-  auto parts = parse_spec(compose(model, 1).spec);
-  std::vector<std::string> words;
-  for (auto& part : parts) {
-    if (part.size() == 3 && !part[2].ends_with(".weighted")) part[2] += ".weighted";
-    words.push_back(fmt::to_string(fmt::join(part, "/")));
-  }
+  ModelSpec weighted = compose(model, 1).spec;
+  for (auto& lobe : weighted.lobes)
+    if (!lobe.fresnel.ends_with(".weighted")) lobe.fresnel += ".weighted";
   const auto refuse = [&] {
     return wrong_usage(fmt::format(
         "scale free: found model '{}', expected a diffuse term that is linear in kd, and lobes "
         "with a Fresnel term that has a .weighted form (schlick, dielectric, conductor)",
         model));
   };
-  const auto weighted = fmt::to_string(fmt::join(words, "+"));
   try {
     const BoundModel whole = bind_model(weighted, {}, 1);
     BoundModel half = whole;
@@ -72,7 +68,7 @@ FitOptions with_weights(FitOptions o) {
   } catch (const Error&) {
     throw refuse();
   }
-  return options_for(std::move(o), weighted);
+  return options_for(std::move(o), to_text(weighted));
 }
 
 std::vector<std::string> with_weights(const FitOptions& o, std::span<const std::string> models) {

@@ -20,69 +20,16 @@ namespace {
 
 constexpr std::size_t most = 5;
 
-/// Fitted model in parts, of which others are made.
-class Spec {
- public:
-  explicit Spec(std::string_view model) : parts_(parse_spec(model)) {}
-
-  std::string diffuse() const { return parts_[0].size() == 1 ? parts_[0][0] : ""; }
-  std::size_t lobes() const { return parts_.size() - first(); }
-  const std::string& ndf() const { return parts_[first()][0]; }
-  const std::string& masking() const { return parts_[first()][1]; }
-  const std::string& fresnel() const { return parts_[first()][2]; }
-
-  std::string with_diffuse(const std::string& name) const {
-    Spec s = *this;
-    if (s.diffuse().empty())
-      s.parts_.insert(s.parts_.begin(), {name});
-    else
-      s.parts_[0][0] = name;
-    return s.text();
-  }
-  std::string with_ndf(const std::string& name, const std::string& masking = "") const {
-    Spec s = *this;
-    s.parts_[first()][0] = name;
-    if (!masking.empty()) s.parts_[first()][1] = masking;
-    return s.text();
-  }
-  std::string with_masking(const std::string& name) const { return with(1, name); }
-  std::string with_fresnel(const std::string& name) const { return with(2, name); }
-  std::string with_another_lobe() const {
-    Spec s = *this;
-    if (lobes() == 0)
-      s.parts_.push_back({"ggx", "smith_ggx.correlated", "schlick"});
-    else
-      s.parts_.push_back(parts_.back());
-    return s.text();
-  }
-  /// "" where nothing would be left.
-  std::string without_lobe(std::size_t l) const {
-    Spec s = *this;
-    s.parts_.erase(s.parts_.begin() + static_cast<std::ptrdiff_t>(first() + l));
-    if (s.lobes() == 0 && !diffuse().empty()) s.parts_[0][0] = "lambert";  // coupled to no lobe
-    return s.parts_.empty() ? "" : s.text();
-  }
-  bool lobes_alike() const {
-    return std::all_of(parts_.begin() + static_cast<std::ptrdiff_t>(first()), parts_.end(),
-                       [&](const auto& part) { return part == parts_[first()]; });
-  }
-
- private:
-  std::size_t first() const { return !parts_.empty() && parts_[0].size() == 1 ? 1 : 0; }
-  std::string with(std::size_t term, const std::string& name) const {
-    Spec s = *this;
-    s.parts_[first()][term] = name;
-    return s.text();
-  }
-  std::string text() const {
-    std::string all;
-    for (const auto& part : parts_)
-      all += (all.empty() ? "" : "+") +
-             (part.size() == 1 ? part[0] : part[0] + "/" + part[1] + "/" + part[2]);
-    return all;
-  }
-  std::vector<std::vector<std::string>> parts_;
-};
+std::string with_diffuse(ModelSpec spec, std::string_view name) {
+  spec.diffuse = name;
+  return to_text(spec);
+}
+/// The model without a lobe; "" where nothing would be left.
+std::string without_lobe(ModelSpec spec, std::size_t l) {
+  spec.lobes.erase(spec.lobes.begin() + static_cast<std::ptrdiff_t>(l));
+  if (spec.lobes.empty() && !spec.diffuse.empty()) spec.diffuse = "lambert";  // coupled to no lobe
+  return to_text(spec);
+}
 
 /// Number of a lobe of which nothing is known though it was fitted.
 std::optional<std::size_t> unknown_lobe(const FitDocument& d) {
@@ -155,36 +102,42 @@ class Steps {
 };
 
 /// Models that may follow what this one leaves over.
-std::vector<std::string> others_of(const Spec& spec) {
-  const std::string diffuse = spec.diffuse();
+std::vector<std::string> others_of(const ModelSpec& spec) {
+  const std::string& diffuse = spec.diffuse;
   std::vector<std::string> all;
   if (diffuse == "lambert" || diffuse == "lambert.coupled")
-    for (const char* other : {"eon", "disney", "lambert.coupled"})
-      if (diffuse != other && (spec.lobes() > 0 || other != std::string_view("lambert.coupled")))
-        all.push_back(spec.with_diffuse(other));
-  if (spec.lobes() < 2) all.push_back(spec.with_another_lobe());
-  if (spec.lobes() == 0) return all;
-  const std::string ndf = spec.ndf(), fresnel = spec.fresnel(), masking = spec.masking();
-  if (ndf != "gtr") all.push_back(spec.with_ndf("gtr"));
+    for (const std::string_view other : {"eon", "disney", "lambert.coupled"})
+      if (diffuse != other && (!spec.lobes.empty() || other != "lambert.coupled"))
+        all.push_back(with_diffuse(spec, other));
+  if (spec.lobes.size() < 2) {
+    ModelSpec more = spec;
+    more.lobes.push_back(spec.lobes.empty() ? LobeSpec{"ggx", "smith_ggx.correlated", "schlick"}
+                                            : spec.lobes.back());
+    all.push_back(to_text(more));
+  }
+  if (spec.lobes.empty()) return all;
+  const auto& [ndf, masking, fresnel] = spec.lobes[0];
+  const auto add_lobe = [&](const std::string& d, const std::string& v, const std::string& f) {
+    ModelSpec other = spec;
+    other.lobes[0] = {d, v, f};
+    all.push_back(to_text(other));
+  };
+  if (ndf != "gtr") add_lobe("gtr", masking, fresnel);
   const auto dot = std::min(masking.find('.'), masking.size());
   const std::string shape = masking.substr(0, dot), form = masking.substr(dot);
   if (shape == "smith_ggx") {
-    all.push_back(spec.with_ndf("gtr", "smith_gtr" + form));
-    all.push_back(spec.with_ndf("charlie", "smith_charlie" + form));
-    if (ndf == "ggx") all.push_back(spec.with_ndf("ggx_aniso", "smith_ggx_aniso" + form));
+    add_lobe("gtr", "smith_gtr" + form, fresnel);
+    add_lobe("charlie", "smith_charlie" + form, fresnel);
+    if (ndf == "ggx") add_lobe("ggx_aniso", "smith_ggx_aniso" + form, fresnel);
   }
-  if (ndf == "beckmann" && shape == "smith_beckmann")
-    all.push_back(spec.with_ndf("ggx", "smith_ggx" + form));
-  if (ndf == "ggx" && shape == "smith_ggx")
-    all.push_back(spec.with_ndf("beckmann", "smith_beckmann" + form));
+  if (ndf == "beckmann" && shape == "smith_beckmann") add_lobe("ggx", "smith_ggx" + form, fresnel);
+  if (ndf == "ggx" && shape == "smith_ggx") add_lobe("beckmann", "smith_beckmann" + form, fresnel);
   if (fresnel == "schlick")
-    for (const char* other : {"schlick.f90", "schlick.weighted"})
-      all.push_back(spec.with_fresnel(other));
+    for (const char* other : {"schlick.f90", "schlick.weighted"}) add_lobe(ndf, masking, other);
   if (fresnel != "dielectric" && fresnel != "conductor")
-    all.push_back(spec.with_fresnel(diffuse.empty() ? "conductor" : "dielectric"));
+    add_lobe(ndf, masking, diffuse.empty() ? "conductor" : "dielectric");
   if (shape.starts_with("smith_") && !form.empty())
-    all.push_back(
-        spec.with_masking(shape + (form == ".correlated" ? ".separable" : ".correlated")));
+    add_lobe(ndf, shape + (form == ".correlated" ? ".separable" : ".correlated"), fresnel);
   return all;
 }
 
@@ -192,7 +145,7 @@ std::vector<std::string> others_of(const Spec& spec) {
 /// \param less      the model without a lobe of which nothing is known; if that does as well as the best, no other is named
 /// \param needless  whether the fit is that one's
 bool add_models(Steps& steps,
-                const Spec& spec,
+                const ModelSpec& spec,
                 const FitDocument& d,
                 const TryModel& attempt,
                 const std::string& less,
@@ -205,7 +158,7 @@ bool add_models(Steps& steps,
   const double here = attempt(needless ? less : d.model), misfit = d.misfit.size * d.misfit.size;
   auto others = others_of(spec);
   if (!less.empty()) {
-    std::ranges::copy(others_of(Spec(less)), std::back_inserter(others));
+    std::ranges::copy(others_of(parse_model(less)), std::back_inserter(others));
     others.push_back(less);
   }
   std::vector<double> left(others.size());
@@ -236,7 +189,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
                                     const FitFacts& f,
                                     const TryModel& attempt) {
   Steps steps;
-  const Spec spec(d.model);
+  const ModelSpec spec = parse_model(d.model);
 
   if (d.solver.termination != "converged")
     for (const auto& p : d.parameters)
@@ -246,7 +199,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
   if (o.copies && f.copies)
     steps.add("fit without --copies keep: angles that only repeat another are no measurements");
   const auto unknown = unknown_lobe(d);
-  const std::string less = unknown ? spec.without_lobe(*unknown) : "";
+  const std::string less = unknown ? without_lobe(spec, *unknown) : "";
   const bool mended =
       d.misfit.told && !f.no_f && add_models(steps, spec, d, attempt, less, f.needless);
   if (f.retro && !mended) {
@@ -257,8 +210,9 @@ std::vector<std::string> next_steps(const FitOptions& o,
       steps.add(fmt::format(
           "--mask 'retro < {:.0f}': no microfacet model has a highlight at wo = wi", wide));
   }
-  if (f.cost_of_fewer < d.cost && spec.lobes_alike())
-    steps.add_model(spec.without_lobe(0), "meets the table better");
+  if (f.cost_of_fewer < d.cost &&
+      std::ranges::count(spec.lobes, spec.lobes[0]) == std::ssize(spec.lobes))
+    steps.add_model(without_lobe(spec, 0), "meets the table better");
   else if (unknown && !mended)
     steps.add_model(less, f.needless ? "does as well: nothing is known of the lobe"
                                      : "says all that is known: of the lobe nothing is");
@@ -267,8 +221,8 @@ std::vector<std::string> next_steps(const FitOptions& o,
         fmt::format("outgoing angles {:.1g}° apart or less around the mirror direction may resolve "
                     "the highlight",
                     2 * f.unresolved->half_width_deg / 3));
-  if (returns_too_much(d.physics) && spec.diffuse() == "lambert" && spec.lobes() > 0 && !f.no_f)
-    steps.add_model(spec.with_diffuse("lambert.coupled"),
+  if (returns_too_much(d.physics) && spec.diffuse == "lambert" && !spec.lobes.empty() && !f.no_f)
+    steps.add_model(with_diffuse(spec, "lambert.coupled"),
                     "may return less light: its diffuse is what the lobe lets through");
 
   for (const auto& s : d.sensitivity)

@@ -91,7 +91,7 @@ bool repeats_another(const Model& m,
     const float x = value("alpha_x"), y = value("alpha_y");
     return x < y || (x == y && value("tangent") > 0);
   }
-  const float first = value("alpha"), second = value("alpha_2");
+  const float first = value("alpha"), second = value(to_text({"alpha", 1}));
   if (m.lobes.size() < 2 || !are_alike(m.lobes[0], m.lobes[1])) return first == second;
   return first <= second;
 }
@@ -192,8 +192,9 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
   if (o.offset > 0 && o.metric == Metric::l2_cosine)
     throw wrong_usage("offset goes with the metrics log and relative, not with l2_cosine");
   if (o.refine_normals && turns())
-    throw wrong_usage(fmt::format(
-        "normals are refined only with isotropic models: '{}' is anisotropic", model().spec));
+    throw wrong_usage(
+        fmt::format("normals are refined only with isotropic models: '{}' is anisotropic",
+                    to_text(model().spec)));
   for (const auto* t : terms_of(model())) {
     const auto* own = foreign_term(t->term);
     if (own && o.refine_normals)

@@ -85,10 +85,11 @@ bool is_never_turned(const DirectionList& l) {
 }
 
 /// The spec with the isotropic forms of its terms, which share one width.
-std::string without_tangent(std::string spec) {
-  constexpr std::string_view ending = "_aniso";
-  for (auto at = spec.find(ending); at != std::string::npos; at = spec.find(ending))
-    spec.erase(at, ending.size());
+ModelSpec without_tangent(ModelSpec spec) {
+  constexpr std::string_view word = "_aniso";
+  each_name(spec, [&](std::string& name) {
+    if (const auto at = name.find(word); at != name.npos) name.erase(at, word.size());
+  });
   return spec;
 }
 
@@ -105,7 +106,7 @@ FitOptions expanded(FitOptions o) {
   if (std::erase_if(o.fixed, [](const Setting& s) {
         return s.name == "anisotropy" && s.values == std::vector{0.0};
       }))
-    o.model = without_tangent(o.model);
+    o.model = to_text(without_tangent(parse_model(o.model)));
   const auto defaults = preset->resolve(PresetValues(preset->parameters, {}));
   for (const auto name : preset->held)
     if (std::ranges::find(o.fixed, name, &Setting::name) == o.fixed.end())
@@ -149,7 +150,7 @@ void check_azimuths(const Table& t, const Model& m) {
     throw wrong_usage(
         fmt::format("model '{}' is anisotropic, and a table of this layout does not say how the "
                     "surface was turned",
-                    m.spec));
+                    to_text(m.spec)));
 }
 
 Problem pose(const Table& t, const FitOptions& o) {
@@ -158,12 +159,12 @@ Problem pose(const Table& t, const FitOptions& o) {
   if (m.anisotropic && is_in_one_plane(*t.list()))
     throw wrong_usage(fmt::format(
         "model '{}' is anisotropic, and the directions of this table all lie in one plane",
-        m.spec));
+        to_text(m.spec)));
   if (m.anisotropic && is_never_turned(*t.list()))
     throw wrong_usage(fmt::format(
         "model '{}' is anisotropic, and all light of this table comes from one azimuth: "
         "it does not say how the surface was turned",
-        m.spec));
+        to_text(m.spec)));
   if (o.metric == Metric::uncertainty && t.errors.empty())
     throw bad_input(t.path, "metric uncertainty", "no uncertainties",
                     "a column u_f, uBRDF, or \"uncertainty\" in the side file");

@@ -115,29 +115,32 @@ class TermAudit {
 
   /// The lobe that this term is looked at in: with the masking of its own distribution, of Berry's that of GTR at γ = 1, or
   /// the distribution of its own masking.
-  std::string lobe() const {
+  ModelSpec lobe() const {
     const std::string own(short_id(about_.id)), shape(shape_of_term(own)),
         kind = catalogue()[term_].anisotropic ? "_aniso" : "";
-    return role_ == Role::ndf ? own + "/smith_" + shape + kind + ".correlated"
-                              : shape + kind + "/" + own;
+    return role_ == Role::ndf
+               ? model_of_lobe(own, "smith_" + shape + kind + ".correlated", "constant")
+               : model_of_lobe(shape + kind, own, "constant");
   }
 
   void energy(EntryAudit& e) const {
     if (role_ != Role::diffuse) {
-      e.energy_of = lobe() + "/constant";
+      e.energy_of = to_text(lobe());
       e.energy_is_shared = about_.id == "ndf.blinn_phong" || about_.id == "ndf.shape_invariant";
-      albedo_in(e.energy_of, 1, e.energy);
+      albedo_in(lobe(), 1, e.energy);
       return;
     }
-    const std::string own(short_id(about_.id)), under = own + "+ggx/smith_ggx.correlated/schlick";
+    const std::string own(short_id(about_.id));
+    auto under = model_of_lobe("ggx", "smith_ggx.correlated", "schlick");
+    under.diffuse = own;
     if (!catalogue()[term_].coupled) {
       e.energy_of = own;
-      albedo_in(own, 1, e.energy);
+      albedo_in({own, {}}, 1, e.energy);
     }
     albedo_in(under, 0.04, e.energy_under_lobe);
   }
   /// White, at all values of the parameters of this term and of the width of the lobe.
-  void albedo_in(const std::string& spec, double f0, std::optional<Worst>& most) const {
+  void albedo_in(const ModelSpec& spec, double f0, std::optional<Worst>& most) const {
     const Model m = compose(spec, 1);
     BoundModel b{m, Values(m.value_count), {}};
     std::vector<Parameter> varied;

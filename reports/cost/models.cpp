@@ -204,8 +204,8 @@ CostError error_of_whole(const Whole& w) {
       const auto model = standing_for(w, s, roughness);
       if (!model) continue;
       const auto truth = truth_for(w, s, roughness);
-      if (e.truth.find(truth.model.spec) == e.truth.npos)
-        e.truth += (e.truth.empty() ? "" : ", ") + truth.model.spec;
+      if (e.truth.find(to_text(truth.model.spec)) == e.truth.npos)
+        e.truth += (e.truth.empty() ? "" : ", ") + to_text(truth.model.spec);
       const auto f = values_in<F>(*model), g = values_in<double>(truth);
       const auto d = values_of(ndf_of(truth.model), roughness * roughness, rows);
       const double least = *std::ranges::max_element(d) * 1e-6;

@@ -97,25 +97,27 @@ class Forms {
                  std::string_view ndf,
                  std::string_view masking,
                  std::string_view fresnel) {
-    return forms_.emplace_back(CrossForm{std::move(name), std::move(kind),
-                                         fmt::format("{}/{}/{}", ndf, masking, fresnel)});
+    return forms_.emplace_back(
+        CrossForm{std::move(name), std::move(kind), to_text(model_of_lobe(ndf, masking, fresnel))});
   }
   const CrossTruth& t_;
   std::vector<CrossForm> forms_;
 };
 
 /// The exact Fresnel term of a fit: of metals in terms of F0 and edge tint, so that F0 is a parameter.
-std::string with_exact(std::string model, const FresnelSurface& s) {
-  if (const auto at = model.rfind(exact_word); at != std::string::npos)
-    model.replace(at, exact_word.size(), s.kind == "metal" ? "gulbrandsen" : "dielectric");
+ModelSpec with_exact(ModelSpec model, const FresnelSurface& s) {
+  for (auto& lobe : model.lobes)
+    if (lobe.fresnel == exact_word) lobe.fresnel = s.kind == "metal" ? "gulbrandsen" : "dielectric";
   return model;
 }
 
 /// Parameters of a form that are not free, but follow from the surface.
-std::vector<Setting> held_by(const std::string& model, const FresnelSurface& s) {
-  if (model.ends_with("/schlick.ue"))  // F0 of green decides for all channels
+std::vector<Setting> held_by(const ModelSpec& model, const FresnelSurface& s) {
+  if (model.lobes.empty()) return {};
+  const auto& fresnel = model.lobes.back().fresnel;
+  if (fresnel == "schlick.ue")  // F0 of green decides for all channels
     return {{"f0_green", {s.f0(s.channels() / 2)}}};
-  if (model.ends_with("/lazanyi")) {  // n and k make one F0: k alone is free
+  if (fresnel == "lazanyi") {  // n and k make one F0: k alone is free
     Setting eta{"eta", {}};
     for (const auto& i : s.index) eta.values.push_back(i.n);
     return {eta};
@@ -208,9 +210,10 @@ CrossCase fit_case(const CrossTruth& t,
                    const CrossSlice& slice,
                    Metric metric) {
   FitOptions o;
-  o.model = with_exact(f.model, s);
+  const auto model = with_exact(parse_model(f.model), s);
+  o.model = to_text(model);
   o.fixed = f.fixed;
-  for (auto& held : held_by(o.model, s)) o.fixed.push_back(std::move(held));
+  for (auto& held : held_by(model, s)) o.fixed.push_back(std::move(held));
   o.metric = metric;
   o.intervals = Intervals::independent;
   o.bin_sensitivity = false;

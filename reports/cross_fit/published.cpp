@@ -71,7 +71,9 @@ PublishedFit fitted(const Published& p, std::size_t bins) {
   o.bin_sensitivity = false;
   o.fixed = {index};
   const auto with = [&](std::string_view ndf) {  // all else as it was published
-    o.model = fmt::format("lambert+{}/cook_torrance/{}.weighted", ndf, fresnel);
+    auto spec = model_of_lobe(ndf, "cook_torrance", std::string(fresnel) + ".weighted");
+    spec.diffuse = "lambert";
+    o.model = to_text(spec);
     return fit(slice, o).document;
   };
   const auto ggx = with("ggx"), gtr = with("gtr");

@@ -54,9 +54,8 @@ BoundModel bound_truth(const CrossTruth& t, const FresnelSurface& s, double roug
   for (const auto& i : s.index) eta.values.push_back(i.n), k.values.push_back(i.k);
   settings.push_back(eta);
   if (s.kind == "metal") settings.push_back(k);
-  return bind_model(
-      fmt::format("{}/{}/{}", t.ndf, t.masking, s.kind == "metal" ? "conductor" : "dielectric"),
-      settings, s.channels());
+  return bind_model(model_of_lobe(t.ndf, t.masking, s.kind == "metal" ? "conductor" : "dielectric"),
+                    settings, s.channels());
 }
 
 std::vector<std::vector<double>> beyond_one_facet(const BoundModel& m,

@@ -45,11 +45,9 @@ std::vector<EnergyForm> all_forms() {
       out.push_back({masking, ndf, masking});
   }
   for (const auto id : white_models) {
-    const std::string spec(find_preset(id)->spec);
-    const auto first = spec.find('/');
-    out.push_back({std::string(id), "ndf." + spec.substr(0, first),
-                   "masking." + spec.substr(first + 1, spec.rfind('/') - first - 1),
-                   std::string(id), 0, 1, light_unit(id)});
+    const auto lobe = parse_model(find_preset(id)->spec).lobes[0];
+    out.push_back({std::string(id), "ndf." + lobe.ndf, "masking." + lobe.masking, std::string(id),
+                   0, 1, light_unit(id)});
   }
   return out;
 }
@@ -59,7 +57,7 @@ BoundModel bound(const EnergyForm& f, double roughness) {
     return bind_model(f.model, {{"roughness", {roughness}}, {"specular_color", {1}}}, 1);
   std::vector<Setting> s{{"alpha", {roughness * roughness}}, {"f0", {1}}};
   if (f.gamma > 0) s.push_back({"gamma", {f.gamma}});
-  return bind_model(fmt::format("{}/{}/constant", short_id(f.ndf), short_id(f.masking)), s, 1);
+  return bind_model(model_of_lobe(short_id(f.ndf), short_id(f.masking), "constant"), s, 1);
 }
 
 std::vector<Crossing> crossings(const EnergyForm& f) {

@@ -52,7 +52,7 @@ Json page_json(const ExploredModel& m) {
   }
   return {{"kind", "model"},
           {"name", m.name},
-          {"spec", m.model.model.model.spec},
+          {"spec", to_text(m.model.model.model.spec)},
           {"channels", m.model.channels},
           {"values", values},
           {"said", m.undetermined.empty()

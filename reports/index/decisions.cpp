@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/spec.h"
 #include "reports/finding/words.h"
 #include "timing/timing.h"
 
@@ -106,7 +107,7 @@ void masking(std::vector<Decision>& to, const Facts& f) {
   if (!cheap || !taken) return;
   const auto rms = [](const Candidate& c) { return fmt::format("RMS {:.2g} of G₂", c.error); };
   const auto model = [](std::string_view form) {
-    return fmt::format("ggx/{}/schlick", short_id(form));
+    return to_text(model_of_lobe("ggx", short_id(form), "schlick"));
   };
   const auto cost = cost_text(*taken, *cheap);
   const auto* other = nearest_cheaper(all, *taken);

@@ -328,10 +328,10 @@ std::optional<NearestModel> nearest_model(std::size_t term) {
         }
         const bool is_lambert = least > 0 && most < least * (1 + same_within);
         n.lacks_diffuse = !is_lambert && most > same_within;
-        n.spec =
-            fmt::format("{}{}/{}/schlick", is_lambert ? "lambert+" : "", short_id(d), short_id(v));
-        const std::size_t channels = f0->per_channel ? 3 : 1;
-        n.operations = operations_of(compose(n.spec, channels)).total();
+        auto spec = model_of_lobe(short_id(d), short_id(v), "schlick");
+        if (is_lambert) spec.diffuse = "lambert";
+        n.spec = to_text(spec);
+        n.operations = operations_of(compose(spec, f0->per_channel ? 3 : 1)).total();
         return n;
       }
   }

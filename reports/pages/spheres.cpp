@@ -226,7 +226,7 @@ Spheres make_spheres(const Table& table, std::span<const BoundModel> models, std
   const Comparison compared(table, models, pixels);
   Spheres s;
   s.pixels = pixels;
-  for (const auto& m : models) s.models.push_back(m.model.spec);
+  for (const auto& m : models) s.models.push_back(to_text(m.model.spec));
   s.channels = compared.channels();
   for (const auto& light : sphere_lights()) s.lights.push_back(compared.under(light));
   return s;

@@ -44,7 +44,7 @@ std::pair<std::vector<double>, double> albedo(std::string_view ndf,
                                               std::string_view masking,
                                               double roughness,
                                               std::span<const double> mu) {
-  const auto b = bind_model(fmt::format("{}/{}/constant", short_id(ndf), short_id(masking)),
+  const auto b = bind_model(model_of_lobe(short_id(ndf), short_id(masking), "constant"),
                             {{"alpha", {roughness * roughness}}, {"f0", {1}}}, 1);
   std::pair<std::vector<double>, double> out;
   for (const auto& a : directional_albedo(b, mu, 0, goal)) {

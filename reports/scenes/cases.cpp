@@ -15,25 +15,20 @@ namespace {
 using namespace scene;
 
 struct Case {
-  std::string_view name, model, coat;  ///< coat: a lobe, or none
+  const char *name, *model;
   std::vector<Setting> settings;
 };
 const std::vector<Case>& cases() {
-  static constexpr std::string_view coat = "ggx/smith_ggx.correlated/schlick.weighted",
-                                    plastic = "disney.coupled+ggx/smith_ggx.correlated/dielectric";
+  static constexpr const char* plastic = "disney.coupled+ggx/smith_ggx.correlated/dielectric";
   static const std::vector<Case> all{
       {"satin gold",
        "ggx/smith_ggx.correlated/conductor",
-       "",
        {{"roughness", {0.45}}, {"metal", {}, "Au"}}},
-      {"chalk", plastic, "", {{"kd", {0.8, 0.8, 0.78}}, {"roughness", {0.9}}, {"eta", {1.5}}}},
-      {"red plastic",
-       plastic,
-       "",
-       {{"kd", {0.5, 0.03, 0.02}}, {"roughness", {0.25}}, {"eta", {1.49}}}},
+      {"chalk", plastic, {{"kd", {0.8, 0.8, 0.78}}, {"roughness", {0.9}}, {"eta", {1.5}}}},
+      {"red plastic", plastic, {{"kd", {0.5, 0.03, 0.02}}, {"roughness", {0.25}}, {"eta", {1.49}}}},
       {"car paint",
-       plastic,
-       coat,
+       "disney.coupled+ggx/smith_ggx.correlated/dielectric"
+       "+coat:ggx/smith_ggx.correlated/schlick.weighted",
        {{"kd", {0.02, 0.05, 0.25}},
         {"roughness", {0.5}},
         {"eta", {1.5}},
@@ -42,11 +37,10 @@ const std::vector<Case>& cases() {
         {"weight_2", {1}}}},
       {"brushed aluminium",
        "ggx_aniso/smith_ggx_aniso.correlated/conductor",
-       "",
        {{"alpha_x", {0.23}}, {"alpha_y", {0.065}}, {"metal", {}, "Al"}}},
       {"everything needed",
-       "disney.coupled+ggx_aniso/smith_ggx_aniso.correlated/conductor",
-       coat,
+       "disney.coupled+ggx_aniso/smith_ggx_aniso.correlated/conductor"
+       "+coat:ggx/smith_ggx.correlated/schlick.weighted",
        {{"kd", {0.25, 0.15, 0.1}},
         {"alpha_x", {0.6}},
         {"alpha_y", {0.2}},
@@ -61,12 +55,11 @@ const std::vector<Case>& cases() {
 Material made(const Case& c) {
   Material m;
   m.name = c.name;
-  m.coated = !c.coat.empty();
-  FromSpec from{std::string(c.model), {}};
-  if (m.coated) from.model += fmt::format("+coat:{}", c.coat);
+  const auto spec = parse_model(c.model);
+  m.coated = spec.coat.has_value();
+  FromSpec from{c.model, {}};
   for (const auto& s : c.settings) from.parameters.push_back({s.name, {s.values, s.text}});
-  const auto spec = m.coated ? fmt::format("{}+{}", c.model, c.coat) : std::string(c.model);
-  m.is = bind_model(spec, c.settings, 3);
+  m.is = bind_model(coat_as_lobe(spec), c.settings, 3);
   m.from = std::move(from);
   return m;
 }

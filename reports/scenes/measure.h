@@ -13,8 +13,8 @@
 
 namespace gonio::scenes {
 
-/// Name of an effect in a form: "exact Fresnel", "height-correlated masking".
-std::string name_of_form(scene::Effect, std::size_t form);
+/// Name of an effect in a form: "exact Fresnel", "correlated masking".
+std::string name_of_form(scene::Form);
 /// Name of an effect as a whole: "Fresnel", "masking".
 std::string_view name_of_effect(scene::Effect);
 

@@ -24,14 +24,11 @@ std::string spaced(std::string name) {
   return name;
 }
 std::string words_of(Effect e) {
-  const auto name = name_of(e);
-  if (name == "fresnel") return "Fresnel";
-  if (name == "compensation") return "multiple scattering";
-  if (name == "coupling") return "coupling of the diffuse";
-  if (name == "spectrum") return "spectrum of the metal";
-  if (name == "environment") return "integral over the environment";
-  if (name == "precision") return "double precision";
-  return spaced(std::string(name));
+  if (e == Effect::coupling) return "coupling of the diffuse";
+  if (e == Effect::spectrum) return "spectrum of the metal";
+  if (e == Effect::environment) return "integral over the environment";
+  if (e == Effect::precision) return "double precision";
+  return std::string(scenes::name_of_effect(e));
 }
 std::string form_words(std::string_view form) {
   return form == "on" || form == "off" ? "" : fmt::format(" ({})", spaced(std::string(form)));

@@ -39,17 +39,13 @@ using namespace scene;
 std::string joined(const std::string& list, std::string_view next) {
   return fmt::format("{}{}{}", list, list.empty() ? "" : ", ", next);
 }
-std::size_t form_of(const PlannedEffect& e) {
-  const auto all = forms_of(e.effect);
-  return static_cast<std::size_t>(std::ranges::find(all, e.form) - all.begin());
-}
 
 /// Names of the forms that are kept.
 std::string kept(const Forms& forms) {
   std::string list;
   for (std::size_t e = 0; e < effect_count; ++e) {
     const auto effect = static_cast<Effect>(e);
-    if (forms.keeps(effect)) list = joined(list, scenes::name_of_form(effect, forms[effect]));
+    if (forms.keeps(effect)) list = joined(list, scenes::name_of_form(forms[effect]));
   }
   return list;
 }
@@ -116,9 +112,9 @@ class SceneMeasurement {
     r.material = material_;
     r.light = light_;
     for (const auto& e : plan_.effects) {
-      const auto exact = scenes::name_of_form(e.effect, look_.offer(e.effect).forms.back());
+      const auto exact = scenes::name_of_form(look_.offer(e.effect).forms.back());
       if (e.keep)
-        r.kept = joined(r.kept, scenes::name_of_form(e.effect, form_of(e)));
+        r.kept = joined(r.kept, scenes::name_of_form(plan_.forms[e.effect]));
       else if (e.why == Why::structural)
         r.absent = joined(r.absent, scenes::name_of_effect(e.effect));
       else
@@ -155,10 +151,9 @@ class SceneMeasurement {
   }
   void add_effects() {
     for (const auto& e : plan_.effects) {
-      const std::size_t form = form_of(e), exact = look_.offer(e.effect).forms.back();
       to_.effects.push_back({material_, light_, std::string(name_of(e.effect)), e.form,
-                             scenes::name_of_form(e.effect, exact),
-                             e.keep ? scenes::name_of_form(e.effect, form) : "", e.keep,
+                             scenes::name_of_form(look_.offer(e.effect).forms.back()),
+                             e.keep ? scenes::name_of_form(plan_.forms[e.effect]) : "", e.keep,
                              std::string(name_of(e.why)), e.reason, e.error_if_dropped, e.ns_saved,
                              e.ops_saved});
     }
@@ -197,7 +192,7 @@ std::vector<SceneMap> scenes::switch_maps(const ScenesOptions& o,
     const auto map = effect_map(s, 0, o.map_angle_deg, o.map_roughness, o.map_samples);
     for (const Effect e : a.effects)
       maps.push_back({std::string(a.material), std::string(name_of(e)),
-                      name_of_form(e, look.offer(e).forms.back()), roughness_of(a.material),
+                      name_of_form(look.offer(e).forms.back()), roughness_of(a.material),
                       map.light_deg, map.roughness, map.error[static_cast<std::size_t>(e)]});
     if (done) done(static_cast<double>(&a - asked.data() + 1) / asked.size());
   }

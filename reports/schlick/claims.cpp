@@ -28,7 +28,7 @@ std::vector<Lab> colours(std::string_view masking, const FresnelSurface& s, doub
     settings.push_back(std::move(k));
   }
   const auto model =
-      bind_model(fmt::format("ggx/{}/{}", masking, s.kind == "metal" ? "conductor" : "dielectric"),
+      bind_model(model_of_lobe("ggx", masking, s.kind == "metal" ? "conductor" : "dielectric"),
                  std::move(settings), s.channels());
   std::vector<Lab> out;
   for (const auto& a : directional_albedo(model, albedo_mus, 0, shown_goal))

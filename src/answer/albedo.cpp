@@ -131,7 +131,7 @@ AlbedoAnswer albedo_of(const BoundModel& asked,
   const AlbedoStep quiet = [](const std::string&, std::size_t, std::size_t) {};
   const auto& say = step ? step : quiet;
   AlbedoAnswer r;
-  r.model = asked.model.spec;
+  r.model = to_text(asked.model.spec);
   const BoundModel model = q.furnace ? furnace(asked) : asked;
   if (is_solved(q)) {
     by_solution(model, q, r, say);

@@ -19,7 +19,7 @@ void expect_values(const BoundModel& b) {
       throw wrong_usage(
           fmt::format("{} of {} has no value: give it by --set {}=VALUE, or a default by a comment "
                       "\"// {} LOW HIGH DEFAULT\" in the file",
-                      p.name, b.model.spec, p.name, p.name));
+                      p.name, to_text(b.model.spec), p.name, p.name));
 }
 
 ModelArgument named(BoundModel b, std::vector<std::string> names) {

@@ -50,7 +50,7 @@ std::string Surface::description() const {
   for (const auto& l : m->model.lobes) parts.push_back({id(l.ndf), id(l.masking), id(l.fresnel)});
   for (const auto& p : m->model.parameters)
     parameters.push_back(slider_of(p, std::span(m->values).subspan(p.first, p.count)));
-  return Json{{"spec", m->model.spec},
+  return Json{{"spec", to_text(m->model.spec)},
               {"channels", m->model.channels},
               {"anisotropic", m->model.anisotropic},
               {"parts", parts},

@@ -370,7 +370,7 @@ TracedFormula trace_model(const BoundModel& bound,
     }
   if (compensating) {
     if (m.lobes.empty())
-      throw wrong_usage(fmt::format("model '{}' has no lobe to compensate", m.spec));
+      throw wrong_usage(fmt::format("model '{}' has no lobe to compensate", to_text(m.spec)));
     const auto& lobe = m.lobes.front();
     const bool fitted = catalogue()[lobe.ndf.term].id() == "ndf.ggx" &&
                         catalogue()[lobe.masking.term].id() == "masking.smith_ggx.correlated" &&
@@ -381,7 +381,7 @@ TracedFormula trace_model(const BoundModel& bound,
           "direction: not for kulla_conty");
   }
   TracedFormula formula;
-  formula.id = m.spec;
+  formula.id = to_text(m.spec);
   formula.precision = precision;
   formula.is_model = true;
   formula.colour = m.channels == 3;

@@ -114,7 +114,7 @@ Subject subject_of_model(std::string_view spec) {
     inputs.back().name = p.name;
   }
   const bool turned = m.anisotropic || reads_foreign_frame(m);
-  auto s = subject(m.spec, turned ? Given::turned : Given::directions, std::move(inputs));
+  auto s = subject(to_text(m.spec), turned ? Given::turned : Given::directions, std::move(inputs));
   s.model = std::move(m);
   return s;
 }

@@ -17,7 +17,7 @@ TEST(Description, GivesRoughnessTheErrorAndTheIntervalThatItsSquareHas) {
       test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.16,f0=0.05,kd=0.2", 1);
   const Table t = synthesize(truth, {.layout = Layout::random});
   FitOptions o;
-  o.model = truth.model.spec;
+  o.model = to_text(truth.model.spec);
   const Problem p = pose(t, o);
   Uncertainty u(3);
   u.std_error.assign(3, 0.008);
@@ -41,7 +41,7 @@ TEST(Description, TellsNoValueOfWhatIsNotIdentifiableAndNoErrorOfWhatIsFixed) {
   const auto truth = test::bind("lambert+ggx/smith_ggx.correlated/schlick", "kd=0.2", 2);
   const Table t = synthesize(truth, {.layout = Layout::random});
   FitOptions o;
-  o.model = truth.model.spec;
+  o.model = to_text(truth.model.spec);
   o.fixed = parse_settings(std::vector<std::string>{"alpha=0.3"});
   const Problem p = pose(t, o);
   Uncertainty u(4);

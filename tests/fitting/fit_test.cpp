@@ -369,7 +369,7 @@ TEST(Fit, IsTheSameDocumentForAnyNumberOfThreads) {
   const Layout layout = few(2) > 1 ? Layout::mbsdf : Layout::random;
   const Table t = synthesize(test::paint(), {.layout = layout, .samples = 20'000, .noise = 0.05});
   FitOptions o;
-  o.model = test::paint().model.spec;
+  o.model = to_text(test::paint().model.spec);
   o.robust = true;
   const auto strip = [](FitDocument d) {
     d.solver.phase_ms.clear();

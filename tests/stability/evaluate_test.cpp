@@ -54,7 +54,7 @@ TEST(StabilityValue, OfAModelIsTheProductOfItsTerms) {
       "lambert.coupled+ggx/smith_ggx.correlated/schlick+beckmann/smith_beckmann.correlated/schlick",
       parse_settings(std::array<std::string, 1>{"alpha=0.3,kd=0.4,f0=0.05,alpha_2=0.6,f0_2=0.2"}),
       1);
-  const auto s = subjects_of(bound.model.spec).at(0);
+  const auto s = subjects_of(to_text(bound.model.spec)).at(0);
   std::vector<double> in;
   for (const auto& p : bound.model.parameters) in.push_back(bound.values[p.first]);
   const std::array angles{0.7, 0.4, -0.3};

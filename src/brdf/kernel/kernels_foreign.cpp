@@ -8,9 +8,9 @@
 #include <vector>
 
 #include "brdf/catalogue/foreign_terms.h"
+#include "brdf/formula/coat.h"
 #include "brdf/formula/ndf_ggx.h"
 #include "brdf/kernel/lane.h"
-#include "brdf/term/product.h"
 #include "foreign/interpret.h"
 #include "geometry/frame_of_angles.h"
 
@@ -120,7 +120,7 @@ struct ForeignShade {
         value = lobe_on(Zero{}, Zero{}, One{}, factor, v);
       } else {
         const B under = j.base[0] ? load<B>(j.base[c] + i) : B(j.uniform[c]);
-        value = j.coupled ? lobe_on(under, under, One{}, factor, v)
+        value = j.coupled ? coated_by_facet(under, factor, v)
                           : lobe_on(under, Zero{}, One{}, factor, v);
       }
     }

@@ -236,7 +236,7 @@ std::vector<std::vector<double>> evaluate(const BoundModel& b,
   if (b.model.anisotropic)
     throw wrong_usage(
         fmt::format("model '{}' is anisotropic, and nothing here says how the surface was turned",
-                    b.model.spec));
+                    to_text(b.model.spec)));
   return evaluate_rows(b, angles);
 }
 std::vector<std::vector<double>> evaluate(const BoundModel& b,

@@ -17,14 +17,11 @@
 namespace gonio {
 namespace {
 
-TermUse use(Model& m,
-            std::size_t term,
-            const std::string& ending,
-            std::span<const std::string> grey) {
+TermUse use(Model& m, std::size_t term, std::size_t lobe, std::span<const std::string> grey) {
   TermUse t{term, {}};
   m.anisotropic |= catalogue()[term].anisotropic;
   for (const auto& p : catalogue()[term].parameters) {
-    const std::string name = std::string(p.name) + ending;
+    const auto name = to_text({std::string(p.name), lobe});
     const auto known = std::ranges::find(m.parameters, name, &ModelParameter::name);
     if (known == m.parameters.end()) {
       const bool coloured = p.per_channel && std::ranges::find(grey, name) == grey.end();
@@ -42,16 +39,6 @@ TermUse use(Model& m,
   return t;
 }
 
-/// "f0_2" → {"f0", "_2"}
-std::pair<std::string, std::string> split_ending(const std::string& name) {
-  const auto i = name.rfind('_');
-  if (i == std::string::npos || i + 1 == name.size() ||
-      !std::all_of(name.begin() + static_cast<std::ptrdiff_t>(i) + 1, name.end(),
-                   [](char c) { return '0' <= c && c <= '9'; }))
-    return {name, ""};
-  return {name.substr(0, i), name.substr(i)};
-}
-
 const Setting* find(const std::vector<Setting>& s, std::string_view name) {
   const auto it = std::ranges::find(s, name, &Setting::name);
   return it == s.end() ? nullptr : &*it;
@@ -61,7 +48,7 @@ void forget(std::vector<Setting>& s, std::string_view name) {
 }
 
 /// base_color and metallic become f0 and kd under a coupled diffuse; returns the spec to use.
-std::string resolve_base_color(std::string spec, std::vector<Setting>& settings) {
+ModelSpec resolve_base_color(ModelSpec spec, std::vector<Setting>& settings) {
   const Setting* base = find(settings, "base_color");
   const Setting* metallic = find(settings, "metallic");
   if (!base && !metallic) return spec;
@@ -83,16 +70,17 @@ std::string resolve_base_color(std::string spec, std::vector<Setting>& settings)
   forget(settings, "base_color");
   forget(settings, "metallic");
   settings.insert(settings.end(), {f0, kd});
-  if (spec.starts_with("lambert+")) spec.replace(0, 7, "lambert.coupled");
+  if (spec.diffuse == "lambert" && !spec.lobes.empty()) spec.diffuse = "lambert.coupled";
   return spec;
 }
 
 /// Parameter that a name sets by another measure: alpha by roughness, eta of a dielectric by f0; empty: none.
 std::string aliased(const Model& m, const std::string& name) {
   if (is_roughness(name) && m.find(alpha_name(name))) return alpha_name(name);
-  const auto [stem, ending] = split_ending(name);
-  const bool dielectric = !m.find(name) && m.find("eta" + ending) && !m.find("k" + ending);
-  return stem == "f0" && dielectric ? "eta" + ending : "";
+  const auto [stem, lobe] = parse_parameter(name);
+  const auto eta = to_text({"eta", lobe});
+  const bool dielectric = !m.find(name) && m.find(eta) && !m.find(to_text({"k", lobe}));
+  return stem == "f0" && dielectric ? eta : "";
 }
 
 /// Names that stand for others: roughness, f0 of a dielectric, metal.
@@ -124,7 +112,7 @@ void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
     if (find(settings, "eta") || find(settings, "k")) throw wrong_usage("metal sets eta and k");
     if (!m.find("eta") || !m.find("k"))
       throw wrong_usage(
-          fmt::format("metal sets eta and k, but model '{}' has no conductor", m.spec));
+          fmt::format("metal sets eta and k, but model '{}' has no conductor", to_text(m.spec)));
     forget(settings, "metal");
     Setting eta{"eta", {}}, k{"k", {}};
     for (const auto& index : metal->rgb())
@@ -140,41 +128,41 @@ const ModelParameter* Model::find(std::string_view name) const {
   return it == parameters.end() ? nullptr : &*it;
 }
 
-Model compose(std::string_view spec, std::size_t channels, std::span<const std::string> grey) {
+Model compose(const ModelSpec& spec, std::size_t channels, std::span<const std::string> grey) {
   Model m;
   m.spec = spec;
   m.channels = channels;
-  for (const auto& part : parse_spec(spec)) {
-    if (part.size() == 1) {
-      m.diffuse.push_back(use(m, find_term(part[0], Role::diffuse), "", grey));
-      continue;
-    }
-    const std::string ending = m.lobes.empty() ? "" : fmt::format("_{}", m.lobes.size() + 1);
-    const auto term = [&](std::size_t i, Role role) {
-      return use(m, find_term(part[i], role), ending, grey);
-    };
-    TermUse d = term(0, Role::ndf), v = term(1, Role::masking), f = term(2, Role::fresnel);
+  if (spec.coat)
+    throw wrong_usage(
+        fmt::format("model '{}': a coat is for scenes and choices only", to_text(spec)));
+  const auto term = [&](const std::string& name, Role role) {
+    return use(m, find_term(name, role), m.lobes.size(), grey);
+  };
+  if (!spec.diffuse.empty()) m.diffuse.push_back(term(spec.diffuse, Role::diffuse));
+  for (const auto& l : spec.lobes) {
+    TermUse d = term(l.ndf, Role::ndf), v = term(l.masking, Role::masking),
+            f = term(l.fresnel, Role::fresnel);
     m.lobes.push_back({std::move(d), std::move(v), std::move(f)});
   }
   if (m.anisotropic) m.parameters.push_back({"tangent", &tangent_parameter, m.value_count++, 1});
   for (const auto& d : m.diffuse)
     if (catalogue()[d.term].coupled && m.lobes.empty())
-      throw wrong_usage(fmt::format("model '{}': {} needs a lobe to be coupled to", spec,
+      throw wrong_usage(fmt::format("model '{}': {} needs a lobe to be coupled to", to_text(spec),
                                     catalogue()[d.term].about->id));
   for (const auto& name : grey)
     if (const auto* p = m.find(name); p && !p->about->per_channel)
       throw wrong_usage(fmt::format("'{}' is no colour: it has one value anyway", name));
   for (const auto& name : grey)
     if (!m.find(name))
-      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'", spec, name));
+      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'", to_text(spec), name));
   return m;
 }
 
-BoundModel bind_model(std::string_view spec,
+BoundModel bind_model(const ModelSpec& spec,
                       std::vector<Setting> settings,
                       std::optional<std::size_t> channels,
                       std::span<const std::string> grey) {
-  const std::string resolved = resolve_base_color(resolve_preset(spec, settings), settings);
+  const ModelSpec resolved = resolve_base_color(resolve_preset(spec, settings), settings);
   if (find(settings, "f0") && find(settings, "eta"))
     throw wrong_usage("f0 and eta say the same: give one of them");
   resolve_aliases(compose(resolved, 1), settings);
@@ -191,8 +179,8 @@ BoundModel bind_model(std::string_view spec,
     if (!p) {
       std::vector<std::string_view> names;
       for (const auto& q : b.model.parameters) names.push_back(q.name);
-      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'; it has: {}", resolved,
-                                    s.name, fmt::join(names, ", ")));
+      throw wrong_usage(fmt::format("model '{}' has no parameter '{}'; it has: {}",
+                                    to_text(resolved), s.name, fmt::join(names, ", ")));
     }
     if (s.values.size() != 1 && s.values.size() != p->count)
       throw wrong_usage(

@@ -36,10 +36,9 @@ struct Lobe {
   TermUse ndf, masking, fresnel;
 };
 
-/// D and V of a lobe share the parameters they both name; those of the second lobe end in _2.  Last of an
-/// anisotropic model's is `tangent`.
+/// D and V of a lobe share the parameters they both name.  Last of an anisotropic model's is `tangent`.
 struct Model {
-  std::string spec;
+  ModelSpec spec;
   std::size_t channels = 3;
   std::vector<TermUse> diffuse;
   std::vector<Lobe> lobes;
@@ -55,7 +54,12 @@ struct Model {
 };
 
 /// \param grey  names of colour parameters that have one value for all channels
-Model compose(std::string_view spec, std::size_t channels, std::span<const std::string> grey = {});
+Model compose(const ModelSpec&, std::size_t channels, std::span<const std::string> grey = {});
+inline Model compose(std::string_view spec,
+                     std::size_t channels,
+                     std::span<const std::string> grey = {}) {
+  return compose(parse_model(spec), channels, grey);
+}
 
 /// A model with a value for each parameter.
 struct BoundModel {
@@ -70,9 +74,15 @@ std::vector<std::pair<std::string, std::vector<double>>> named_values(const Boun
 /// Settings resolved: roughness (alpha = roughness²), f0 of a dielectric term (eta), metal=Au (eta
 /// and k), and base_color with metallic (f0 and kd, diffuse coupled).  What is not set keeps its
 /// default.  Channels: as many as the longest colour has, or three.
-BoundModel bind_model(std::string_view spec,
+BoundModel bind_model(const ModelSpec&,
                       std::vector<Setting> settings,
                       std::optional<std::size_t> channels = {},
                       std::span<const std::string> grey = {});
+inline BoundModel bind_model(std::string_view spec,
+                             std::vector<Setting> settings,
+                             std::optional<std::size_t> channels = {},
+                             std::span<const std::string> grey = {}) {
+  return bind_model(parse_model(spec), std::move(settings), channels, grey);
+}
 
 }  // namespace gonio

@@ -8,13 +8,8 @@
 #include "brdf/model/spec.h"
 #include "foreign/function.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 namespace gonio {
 namespace {
-
-constexpr std::string_view coat = "coat:";
 
 std::string with_file(const std::string& name, const auto& path_of) {
   auto n = foreign::parse_name(name);
@@ -29,24 +24,11 @@ std::string with_own_names(std::string_view spec,
                            const std::string& document) {
   // Most specs name no file, and a preset is no spec.
   if (spec.find('.') == spec.npos) return std::string(spec);
-  bool any = false;
-  std::string all;
-  const auto last = spec.rfind('+');
-  std::string plain(spec);
-  const bool coated = last != spec.npos && spec.substr(last + 1).starts_with(coat);
-  if (coated) plain.erase(last + 1, coat.size());
-  const auto parts = parse_spec(plain, document);
-  for (const auto& part : parts) {
-    std::vector<std::string> names;
-    for (const auto& name : part) {
-      any |= foreign::is_name(name);
-      names.push_back(foreign::is_name(name) ? change(name) : name);
-    }
-    all += fmt::format("{}{}{}", all.empty() ? "" : "+",
-                       coated && &part == &parts.back() ? coat : std::string_view(),
-                       fmt::join(names, "/"));
-  }
-  return any ? all : std::string(spec);
+  auto model = parse_model(spec, document);
+  each_name(model, [&](std::string& name) {
+    if (foreign::is_name(name)) name = change(name);
+  });
+  return to_text(model);
 }
 
 bool names_own_file(std::string_view spec) {

@@ -27,7 +27,7 @@ inline constexpr std::string_view own_files_key = "shaders",
 
 /// True of a spec with a function of a file in it.
 bool names_own_file(std::string_view spec);
-/// The spec with each name of a file's function changed.  "coat:" before a part stays where it is.
+/// The spec with each name of a file's function changed.
 /// \param document  file that the spec stands in; "": it comes from a person
 std::string with_own_names(std::string_view spec,
                            const std::function<std::string(const std::string& name)>& change,

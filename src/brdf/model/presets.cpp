@@ -214,9 +214,9 @@ const Preset* find_preset(std::string_view name) {
   return it == all.end() ? nullptr : &*it;
 }
 
-std::string resolve_preset(std::string_view spec, std::vector<Setting>& settings) {
-  const Preset* preset = find_preset(spec);
-  if (!preset) return std::string(spec);
+ModelSpec resolve_preset(const ModelSpec& spec, std::vector<Setting>& settings) {
+  const Preset* preset = find_preset(to_text(spec));
+  if (!preset) return spec;
   const auto own = [&](const Setting& s) {
     return std::ranges::find(preset->parameters, s.name, &Parameter::name) !=
            preset->parameters.end();
@@ -233,7 +233,7 @@ std::string resolve_preset(std::string_view spec, std::vector<Setting>& settings
     s.implied = !any && std::ranges::find(preset->held, s.name) == preset->held.end();
     if (!again) settings.push_back(s);
   }
-  return std::string(preset->spec);
+  return parse_model(preset->spec);
 }
 
 }  // namespace gonio

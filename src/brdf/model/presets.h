@@ -48,6 +48,6 @@ const Preset* find_preset(std::string_view name);
 /// A preset's name becomes its spec, and its own parameters among the settings those of the spec.  If
 /// none of its own is set, what follows from their defaults is marked as implied, but for what the
 /// preset holds, and the spec's parameters may be set instead.  A spec that names no preset stays.
-std::string resolve_preset(std::string_view spec, std::vector<Setting>& settings);
+ModelSpec resolve_preset(const ModelSpec&, std::vector<Setting>& settings);
 
 }  // namespace gonio

@@ -10,9 +10,6 @@
 #include "brdf/catalogue/registry.h"
 #include "optics/f0.h"
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 namespace gonio {
 namespace {
 
@@ -26,7 +23,6 @@ std::string plain_name(std::string_view name) {
 /// Workflow's parameters of a term.
 struct Workflow {
   const ModelParameter *base_color = nullptr, *metallic = nullptr, *reflectance = nullptr;
-  std::string ending;  ///< of their names: that of the lobe
 
   Workflow(const BoundModel& b, const TermUse& t) {
     for (const std::size_t i : t.parameters) {
@@ -36,7 +32,6 @@ struct Workflow {
        : name == "metallic"    ? metallic
        : name == "reflectance" ? reflectance
                                : unused) = &p;
-      if (name == "base_color") ending = p.name.substr(name.size());
     }
   }
   explicit operator bool() const { return base_color != nullptr; }
@@ -64,17 +59,12 @@ BoundModel in_reflectances(const BoundModel& b) {
   std::vector<Setting> settings;
   for (const auto& d : b.model.diffuse)
     if (const Workflow w(b, d); w) settings.push_back({"kd", w.resolved(b).second});
-  for (const auto& l : b.model.lobes)
-    if (const Workflow w(b, l.fresnel); w)
-      settings.push_back({"f0" + w.ending, w.resolved(b).first});
+  for (std::size_t l = 0; l < b.model.lobes.size(); ++l)
+    if (const Workflow w(b, b.model.lobes[l].fresnel); w)
+      settings.push_back({to_text({"f0", l}), w.resolved(b).first});
   if (settings.empty()) return b;
-  std::vector<std::string> parts;
-  for (const auto& part : parse_spec(b.model.spec)) {
-    std::vector<std::string> names;
-    for (const auto& name : part) names.push_back(plain_name(name));
-    parts.push_back(fmt::format("{}", fmt::join(names, "/")));
-  }
-  const auto spec = fmt::format("{}", fmt::join(parts, "+"));
+  ModelSpec spec = b.model.spec;
+  each_name(spec, [](std::string& name) { name = plain_name(name); });
   const Model plain = compose(spec, b.model.channels);
   for (const auto& [name, values] : named_values(b))
     if (plain.find(name)) settings.push_back({name, values});

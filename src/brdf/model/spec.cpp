@@ -17,6 +17,7 @@ namespace {
 /// Parts of a model: a diffuse term and 16 lobes.  Each is read, drawn and integrated for itself, so a file's cost is bounded by
 /// them.
 constexpr std::size_t most_parts = 1 + 16;
+constexpr std::string_view coat_word = "coat:";
 
 std::vector<std::string> split_outside_braces(std::string_view text, char at) {
   std::vector<std::string> parts(1);
@@ -62,15 +63,19 @@ std::vector<std::string> names_of_part(std::string_view part, const std::string&
 
 }  // namespace
 
-std::vector<std::vector<std::string>> parse_spec(std::string_view spec,
-                                                 const std::string& document) {
-  const auto written = split_outside_braces(spec, '+');
+ModelSpec model_of_lobe(std::string_view ndf, std::string_view masking, std::string_view fresnel) {
+  return {"", {{std::string(ndf), std::string(masking), std::string(fresnel)}}};
+}
+
+ModelSpec parse_model(std::string_view spec, const std::string& document) {
+  auto written = split_outside_braces(spec, '+');
   if (written.size() > most_parts)
     throw wrong_usage(
         fmt::format("model '{}': {} parts, where {} lobes and a diffuse term are most",
                     printable(spec, 80), written.size(), most_parts - 1));
-  std::vector<std::vector<std::string>> parts;
-  bool lobe_seen = false;
+  const bool coated = written.size() > 1 && written.back().starts_with(coat_word);
+  if (coated) written.back().erase(0, coat_word.size());
+  ModelSpec m;
   for (const auto& part : written) {
     auto names = names_of_part(part, document);
     if (names.size() != 1 && names.size() != 3)
@@ -78,12 +83,43 @@ std::vector<std::vector<std::string>> parse_spec(std::string_view spec,
           "model '{}': '{}' is neither a diffuse term nor NDF/MASKING/FRESNEL", spec, part));
     for (const auto& n : names)
       if (n.empty()) throw wrong_usage(fmt::format("model '{}': a name is missing", spec));
-    if (names.size() == 1 && (lobe_seen || !parts.empty()))
+    if (names.size() == 3)
+      m.lobes.push_back({std::move(names[0]), std::move(names[1]), std::move(names[2])});
+    else if (&part == &written.front())
+      m.diffuse = std::move(names[0]);
+    else
       throw wrong_usage(fmt::format("model '{}': one diffuse term at most, and first", spec));
-    lobe_seen = lobe_seen || names.size() == 3;
-    parts.push_back(std::move(names));
   }
-  return parts;
+  if (coated) m.coat = std::move(m.lobes.back()), m.lobes.pop_back();
+  return m;
+}
+
+std::string to_text(const ModelSpec& m) {
+  std::string text = m.diffuse;
+  const auto add = [&](std::string_view word, const LobeSpec& l) {
+    text += fmt::format("{}{}{}/{}/{}", text.empty() ? "" : "+", word, l.ndf, l.masking, l.fresnel);
+  };
+  for (const auto& l : m.lobes) add("", l);
+  if (m.coat) add(coat_word, *m.coat);
+  return text;
+}
+
+ModelSpec coat_as_lobe(ModelSpec m) {
+  if (m.coat) m.lobes.push_back(*m.coat);
+  m.coat.reset();
+  return m;
+}
+
+ParameterId parse_parameter(std::string_view name) {
+  if (const auto at = name.rfind('_'); at != name.npos)
+    if (const auto lobe = number_from<std::size_t>(name.substr(at + 1));
+        lobe && *lobe > 1 && name[at + 1] > '0')
+      return {std::string(name.substr(0, at)), *lobe - 1};
+  return {std::string(name)};
+}
+
+std::string to_text(const ParameterId& p) {
+  return p.lobe == 0 ? p.name : fmt::format("{}_{}", p.name, p.lobe + 1);
 }
 
 double parse_number(std::string_view text, const std::string& what) {

@@ -67,7 +67,7 @@ BoundModel two_interfaces(std::string_view masking,
   if (catalogue()[term].anisotropic)
     throw wrong_usage(fmt::format("{} is anisotropic: the split sum's table has one roughness",
                                   catalogue()[term].about->id));
-  return bind_model(fmt::format("ggx/{}/schlick", short_id(catalogue()[term].about->id)),
+  return bind_model(model_of_lobe("ggx", short_id(catalogue()[term].about->id), "schlick"),
                     {{"roughness", {roughness}}, {"f0", {f0[0], f0[1]}}});
 }
 

@@ -65,7 +65,7 @@ class CompensatedLobe {
         throw wrong_usage(
             fmt::format("'{}' has {}: fdez_aguera takes A and B of the split sum, which are of "
                         "fresnel.schlick",
-                        whole.model.spec, fresnel.about->id));
+                        to_text(whole.model.spec), fresnel.about->id));
       dark_ = single_;
       const auto& f0 = dark_.model.parameters[lobe.fresnel.parameters[0]];
       std::fill_n(dark_.values.begin() + static_cast<std::ptrdiff_t>(f0.first), f0.count, 0.0);

@@ -42,7 +42,7 @@ std::vector<LitSurface> lit_surfaces(const BoundModel& whole) {
       throw wrong_usage(fmt::format(
           "'{}' has the widths {} and {}: the deterministic solution is for isotropic surfaces, a "
           "walk takes both",
-          whole.model.spec, m.alpha_x, m.alpha_y));
+          to_text(whole.model.spec), m.alpha_x, m.alpha_y));
     const std::size_t masking =
         find_term(m.slopes == Microsurface::Slopes::ggx ? "masking.smith_ggx.correlated"
                                                         : "masking.smith_beckmann.correlated");

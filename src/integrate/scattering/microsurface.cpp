@@ -43,7 +43,8 @@ std::vector<Microsurface> microsurfaces(const BoundModel& m) {
     surfaces.push_back({pair->slopes, widths.front(), widths.back(), lobe.fresnel});
   }
   if (surfaces.empty())
-    throw wrong_usage(fmt::format("'{}' has no lobe, so no facets to walk on", m.model.spec));
+    throw wrong_usage(
+        fmt::format("'{}' has no lobe, so no facets to walk on", to_text(m.model.spec)));
   return surfaces;
 }
 

@@ -103,25 +103,17 @@ class Files {
   MeshBudget budget_;
 };
 
-/// Spec of a model whose last lobe may be a coat, without the word for that.
-std::pair<std::string, bool> without_coat(const std::string& spec) {
-  static constexpr std::string_view coat = "coat:";
-  const auto last = spec.rfind('+');
-  if (last == std::string::npos || spec.compare(last + 1, coat.size(), coat) != 0)
-    return {spec, false};
-  return {spec.substr(0, last + 1) + spec.substr(last + 1 + coat.size()), true};
-}
-
-/// \param scene  its path   \param at  the material
-BoundModel model_of(const FromSpec& from, const std::string& scene, const JsonReader& at) {
+/// The model, and whether its last lobe is a coat.  \param scene  its path   \param at  the material
+std::pair<BoundModel, bool> model_of(const FromSpec& from,
+                                     const std::string& scene,
+                                     const JsonReader& at) {
   std::vector<Setting> settings;
   if (!from.parameters.empty()) settings = settings_of(from.parameters, at.at("parameters"));
   const auto bound = [&](const char* key, const char* expected, std::vector<Setting> with) {
     try {
-      const auto [spec, coated] = without_coat(own_files_beside(scene, from.model));
-      auto model = bind_model(spec, std::move(with), kChannels);
-      if (coated && model.model.lobes.empty()) throw wrong_usage("a coat is a lobe");
-      return model;
+      const auto spec = parse_model(own_files_beside(scene, from.model));
+      return std::pair(bind_model(coat_as_lobe(spec), std::move(with), kChannels),
+                       spec.coat.has_value());
     } catch (const Error& e) {  // the words are the file's, not the user's
       at.at(key).fail(fmt::format("{} ({})", expected, e.what()));
     }
@@ -130,29 +122,21 @@ BoundModel model_of(const FromSpec& from, const std::string& scene, const JsonRe
   return bound("parameters", "parameters of the model", std::move(settings));
 }
 
-std::variant<BoundModel, GltfMaterial> resolved(const Material& m,
-                                                const JsonReader& at,
-                                                Files& files) {
+/// Gives a material the surface that it is from.
+void resolve(Material& m, const JsonReader& at, Files& files) {
   if (const auto* spec = std::get_if<FromSpec>(&m.from)) {
-    auto model = model_of(*spec, files.scene(), at);
-    files.add_own(model.model.spec);
-    return model;
+    std::tie(m.is, m.coated) = model_of(*spec, files.scene(), at);
+  } else if (const auto* fit = std::get_if<FromFit>(&m.from)) {
+    m.is = files.fit(fit->path);
+  } else {
+    const auto& gltf = std::get<FromGltf>(m.from);
+    m.is = read_material(files.gltf(gltf.path), gltf.material);
   }
-  if (const auto* fit = std::get_if<FromFit>(&m.from)) {
-    auto model = files.fit(fit->path);
-    files.add_own(model.model.spec);
-    return model;
-  }
-  const auto& gltf = std::get<FromGltf>(m.from);
-  return read_material(files.gltf(gltf.path), gltf.material);
+  if (const auto* model = std::get_if<BoundModel>(&m.is)) files.add_own(to_text(model->model.spec));
 }
 
 void resolve(std::vector<Material>& materials, const JsonReader& at, Files& files) {
-  for (auto& m : materials) {
-    m.is = resolved(m, at.at(m.name), files);
-    if (const auto* spec = std::get_if<FromSpec>(&m.from))
-      m.coated = without_coat(spec->model).second;
-  }
+  for (auto& m : materials) resolve(m, at.at(m.name), files);
 }
 
 std::vector<Object> objects_of(std::vector<NamedObject>& named,

@@ -26,7 +26,7 @@ namespace gonio::scene {
 
 // --- Materials ---
 
-/// Model by its spec, or a preset; files of its functions lie beside the scene.  "coat:" before its last lobe puts that lobe on all others: f = below + F (D V − below).
+/// Model by its spec, or a preset; files of its functions lie beside the scene.  "coat:" before its last lobe puts that lobe on all others, by facet (brdf/formula/coat.h).
 struct FromSpec {
   std::string model;
   GivenParameters parameters;

@@ -135,7 +135,7 @@ ReachedAngles reached_angles(const Scene& s, const Object& object) {
 
 std::optional<double> change_bound(const Look& look,
                                    Effect effect,
-                                   std::size_t form,
+                                   Form form,
                                    const ReachedAngles& reached) {
   if (effect != Effect::fresnel) return {};
   Forms changed = look.structural();  // the same as exact, and what is absent reflects nothing

@@ -33,7 +33,7 @@ ReachedAngles reached_angles(const Scene&, const Object&);
 ///
 /// by enclosures of the terms over pieces of the range, rounding included.  No value where the change is not bounded by angles
 /// alone, or by no less than 1.
-std::optional<double> change_bound(const Look&, Effect, std::size_t form, const ReachedAngles&);
+std::optional<double> change_bound(const Look&, Effect, Form, const ReachedAngles&);
 
 /// Bound of ΔE2000 between display colours of which each channel differs by `change`, relative.  With f' ≤ f/3 of CIELAB's f,
 ///

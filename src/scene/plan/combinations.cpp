@@ -15,7 +15,7 @@ std::size_t count(const FormsLeft& left) {
 
 void thin_out(FormsLeft& left, const std::array<double, effect_count>& ns_saved, std::size_t most) {
   while (count(left) > most) {
-    const auto longest = std::ranges::max_element(left, {}, &std::vector<std::size_t>::size);
+    const auto longest = std::ranges::max_element(left, {}, &std::vector<Form>::size);
     if (longest->size() > 2) {
       longest->erase(longest->end() - 2);
       continue;

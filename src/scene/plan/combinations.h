@@ -10,7 +10,7 @@
 namespace gonio::scene {
 
 /// Forms of each effect that are left, cheapest first and the exact one last; of none that list is empty.
-using FormsLeft = std::array<std::vector<std::size_t>, effect_count>;
+using FormsLeft = std::array<std::vector<Form>, effect_count>;
 
 /// Leaves at most so many combinations: of the effect with most forms the last but the exact one goes, as long as one has more
 /// than two; then the effect that saves the least time stays exact.

@@ -16,12 +16,11 @@ using C = Counted<double>;
 constexpr std::size_t most_rows = 2048;  ///< that stay in a core's cache
 
 Operations of_multiple(const MultipleScattering& m) {
-  const auto how = forms_of(Effect::compensation)[m.form];
   const auto curve = m.albedo.in<C>();
   const C nol(0.5), nov(0.6), one(1.0), half(0.5);
   return count_operations([&] {
-    if (how == "none") return;
-    if (how == "tabulated") {
+    if (m.form == Form::uncompensated) return;
+    if (m.form == Form::tabulated) {
       // Three coordinates or four by logarithms, four nodes along each, and at each of these places
       // the product of their shares, times three channels.  What is fetched counts nothing.
       const std::size_t axes = m.lobe->anisotropic() ? 4 : 3;
@@ -37,7 +36,7 @@ Operations of_multiple(const MultipleScattering& m) {
       }
       return;
     }
-    if (how == "kulla_conty") {
+    if (m.form == Form::kulla_conty) {
       const C lost = lost_to_bounces(curve, nol, nov);
       for (std::size_t c = 0; c < max_channels; ++c)
         static_cast<void>(one + added_by_kulla_conty(half, lost));
@@ -45,15 +44,14 @@ Operations of_multiple(const MultipleScattering& m) {
     }
     const C e = value_at(curve, nov);
     for (std::size_t c = 0; c < max_channels; ++c)
-      static_cast<void>(one + (how == "turquin" ? added_by_turquin(one, e, half)
-                                                : added_by_fdez_aguera(one, e, half)));
+      static_cast<void>(one + (m.form == Form::turquin ? added_by_turquin(one, e, half)
+                                                       : added_by_fdez_aguera(one, e, half)));
   });
 }
 
 /// True of a compensation that needs the first lobe by itself.
 bool is_brightened(const MultipleScattering& m) {
-  const auto how = forms_of(Effect::compensation)[m.form];
-  return how == "turquin" || how == "fdez_aguera";
+  return m.form == Form::turquin || m.form == Form::fdez_aguera;
 }
 
 /// What Fresnel's equations of every band cost more than those of three channels.

@@ -15,6 +15,11 @@ namespace gonio {
 
 namespace {
 
+std::vector<std::string_view> names(std::span<const scene::Form> forms) {
+  std::vector<std::string_view> all;
+  std::ranges::transform(forms, std::back_inserter(all), name_of<scene::Form>);
+  return all;
+}
 /// Forms by their effects, as a plan's sets have them.
 Json write_forms(const void* value) {
   const auto& forms = *static_cast<const scene::Forms*>(value);
@@ -28,16 +33,15 @@ void read_forms(const JsonReader& j, void* value) {
   for (const auto& [name, form] : members_in(j, {0, scene::effect_count})) {
     const auto effect = find_value<scene::Effect>(name);
     if (!effect) form.fail(fmt::format("'{}'", name), "an effect");
-    const auto known = scene::forms_of(*effect);
-    const auto found = std::ranges::find(known, form.string());
-    if (found == known.end()) form.fail(either({known.begin(), known.end()}));
-    forms[*effect] = static_cast<std::size_t>(found - known.begin());
+    const auto found = scene::find_form(*effect, form.string());
+    if (!found) form.fail(either(names(scene::forms_of(*effect))));
+    forms[*effect] = *found;
   }
 }
 Json forms_schema() {
   Json of = Json::object();
   for (const auto name : names_of<scene::Effect>) {
-    const auto forms = scene::forms_of(*find_value<scene::Effect>(name));
+    const auto forms = names(scene::forms_of(*find_value<scene::Effect>(name)));
     of[std::string(name)] = {{"enum", std::vector<std::string>(forms.begin(), forms.end())}};
   }
   return {{"type", "object"}, {"properties", of}, {"additionalProperties", false}};
@@ -178,13 +182,12 @@ Forms forms_in(const MaterialPlan& m,
     const auto place = at.at("effects").at(i);
     if (std::exchange(told[static_cast<std::size_t>(e.effect)], true))
       place.at("effect").fail("each effect once");
-    std::vector<std::string_view> offered;
-    for (const auto form : look.offer(e.effect).forms) offered.push_back(forms_of(e.effect)[form]);
-    const auto found = std::ranges::find(offered, e.form);
+    const auto& offered = look.offer(e.effect).forms;
+    const auto found = std::ranges::find(offered, e.form, name_of<Form>);
     if (found == offered.end())
       place.at("form").fail(
-          fmt::format("a form that this material offers: {}", fmt::join(offered, ", ")));
-    forms[e.effect] = look.offer(e.effect).forms[static_cast<std::size_t>(found - offered.begin())];
+          fmt::format("a form that this material offers: {}", fmt::join(names(offered), ", ")));
+    forms[e.effect] = *found;
     if (e.keep != forms.keeps(e.effect))
       place.at("keep").fail(forms.keeps(e.effect) ? "true, as its form is not the cheapest"
                                                   : "false, as its form is the cheapest");
@@ -259,11 +262,6 @@ PlannedForms read_plan(const std::string& path, const Scene& s, const std::vecto
   return planned;
 }
 
-std::string_view PlannedMaterial::form(Effect e) const {
-  const auto at = std::ranges::find(forms, e, &std::pair<Effect, std::string>::first);
-  return at == forms.end() ? std::string_view{} : at->second;
-}
-
 PlannedMaterial read_planned_material(const std::string& path, const std::string& name) {
   const JsonDocument document(path, Places::pointer);
   Plan file;
@@ -273,7 +271,13 @@ PlannedMaterial read_planned_material(const std::string& path, const std::string
     known.push_back(m.name);
     if (m.name != name) continue;
     PlannedMaterial planned{own_files_beside(path, m.spec), std::move(m.parameters), {}};
-    for (auto& e : m.effects) planned.forms.emplace_back(e.effect, std::move(e.form));
+    const auto at = document.root().at("materials").at(name).at("effects");
+    for (std::size_t i = 0; i < m.effects.size(); ++i) {
+      const Effect effect = m.effects[i].effect;
+      const auto found = find_form(effect, m.effects[i].form);
+      if (!found) at.at(i).at("form").fail(either(names(forms_of(effect))));
+      planned.forms[effect] = *found;
+    }
     return planned;
   }
   refuse_name(name, known, "material of the plan");

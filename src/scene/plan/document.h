@@ -27,10 +27,7 @@ PlannedForms read_plan(const std::string& path, const Scene&, const std::vector<
 struct PlannedMaterial {
   std::string spec;
   std::vector<std::pair<std::string, std::vector<double>>> parameters;
-  std::vector<std::pair<Effect, std::string>> forms;
-
-  /// Empty where the document does not tell.
-  std::string_view form(Effect) const;
+  Forms forms;
 };
 /// One material of a plan's document, without its scene.  A name that the plan has not is wrong usage.
 PlannedMaterial read_planned_material(const std::string& path, const std::string& name);

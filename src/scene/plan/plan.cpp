@@ -33,7 +33,7 @@ constexpr double reserve = 0.9;
 constexpr double proved_share = 0.1;
 
 /// Key of a set by what it computes: what is not there has no form.
-using Key = std::tuple<std::string, std::size_t, bool, bool, bool>;
+using Key = std::tuple<std::string, Form, bool, bool, bool>;
 Key key_of(const Surface& s) {
   return {s.spec(), s.multiple.form, s.spectrum.has_value(), s.image_lit != nullptr, s.single};
 }
@@ -104,9 +104,9 @@ class MaterialPlanner {
     return judge(d, scene_.tolerance);
   }
   /// All exact but one.
-  Surface with(Effect e, std::size_t form) const { return with(e, form, e, form); }
+  Surface with(Effect e, Form form) const { return with(e, form, e, form); }
   /// All exact but two.
-  Surface with(Effect e, std::size_t form, Effect other, std::size_t other_form) const {
+  Surface with(Effect e, Form form, Effect other, Form other_form) const {
     Forms f = look_.exact();
     f[e] = form;
     f[other] = other_form;
@@ -116,15 +116,14 @@ class MaterialPlanner {
   /// Schlick's Fresnel, Lambert's diffuse and one compensation are all that is computed.
   Forms plain(Forms f) const {
     f = look_.plain(f);
-    if (f.name(Effect::environment) != "split_sum" || !under_sky_ ||
+    if (f[Effect::environment] != Form::split_sum || !under_sky_ ||
         !under_sky_->points.angles.empty())
       return f;
     for (const Effect e : {Effect::fresnel, Effect::anisotropy, Effect::tail, Effect::precision})
       f[e] = look_.offer(e).forms.front();
-    constexpr std::size_t fdez_aguera = 2, lambert = 1;
-    if (f.keeps(Effect::compensation)) f[Effect::compensation] = fdez_aguera;
+    if (f.keeps(Effect::compensation)) f[Effect::compensation] = Form::fdez_aguera;
     if (look_.offer(Effect::diffuse).forms.size() > 1)
-      f[Effect::diffuse] = std::min(f[Effect::diffuse], lambert);
+      f[Effect::diffuse] = std::min(f[Effect::diffuse], Form::lambert);
     return look_.plain(f);
   }
 
@@ -146,7 +145,7 @@ class MaterialPlanner {
   /// Effects one by one.
   void screen() {
     const bool looks_up = may_look_up();
-    const std::size_t lookup = look_.offer(Effect::environment).forms.front();
+    const Form lookup = look_.offer(Effect::environment).forms.front();
     std::vector<Surface> timed;
     for (std::size_t i = 0; i < effect_count; ++i) {
       const auto e = static_cast<Effect>(i);
@@ -170,7 +169,7 @@ class MaterialPlanner {
       } else {
         auto changes = compared_with(dropped).differences_of(scene_, dropped);
         planned.error_if_dropped = judge(changes, scene_.tolerance).quantile;
-        const auto may_be = [&](std::size_t form) {
+        const auto may_be = [&](Form form) {
           if (form == offer.forms.back() || scene_.budget_ns) return true;
           if (e == Effect::environment) return looks_up;
           return judged(with(e, form)).keeps(scene_.tolerance) ||
@@ -191,7 +190,7 @@ class MaterialPlanner {
       effects_[i].ops_saved = ops - operations_of(timed[i], reference_.points);
     }
   }
-  std::optional<double> proved(Effect e, std::size_t form) const {
+  std::optional<double> proved(Effect e, Form form) const {
     const auto change = change_bound(look_, e, form, reached_);
     if (!change) return {};
     return scene_.tolerance.metric == Metric::relative ? *change : delta_e_bound(*change);
@@ -273,7 +272,7 @@ class MaterialPlanner {
   double shipped_upper() const {
     double least = std::numeric_limits<double>::infinity();
     for (const auto form : look_.offer(Effect::compensation).forms)
-      if (forms_of(Effect::compensation)[form] != "tabulated")
+      if (form != Form::tabulated)
         least = std::min(least, judged(with(Effect::compensation, form)).upper);
     return least;
   }
@@ -356,7 +355,7 @@ class MaterialPlanner {
 }  // namespace
 
 bool MaterialPlan::needs_table() const {
-  return std::ranges::find(effects, "tabulated", &PlannedEffect::form) != effects.end();
+  return forms[Effect::compensation] == Form::tabulated;
 }
 
 std::string reference_in_words(std::string_view form) {
@@ -366,8 +365,9 @@ std::string reference_in_words(std::string_view form) {
 }
 
 std::size_t Candidate::kept() const {
-  return static_cast<std::size_t>(
-      std::ranges::count_if(forms.form, [](std::size_t form) { return form > 0; }));
+  std::size_t n = 0;
+  for (std::size_t e = 0; e < effect_count; ++e) n += forms.keeps(static_cast<Effect>(e));
+  return n;
 }
 
 namespace {

@@ -4,10 +4,9 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <span>
-#include <string>
 #include <string_view>
-#include <vector>
 
 #include "base/names.h"
 
@@ -28,18 +27,54 @@ enum class Effect {
 };
 inline constexpr std::size_t effect_count = 11;
 
-/// Names of an effect's forms, from cheap to exact.
-std::span<const std::string_view> forms_of(Effect);
+/// Form in which an effect is simulated: effect by effect, each from cheap to exact.
+// clang-format off
+enum class Form {
+  schlick, f82, exact_fresnel,
+  uncompensated, turquin, fdez_aguera, kulla_conty, tabulated,
+  schlick_k, separable, correlated,
+  isotropic, anisotropic,
+  uncoated, coated,
+  ggx_tail, gtr_tail,
+  no_diffuse, lambert, disney,
+  uncoupled, coupled,
+  rgb, spectral,
+  split_sum, quadrature,
+  in_float, in_double
+};
+// clang-format on
+
+}  // namespace gonio::scene
+
+template <>
+inline constexpr std::array<std::string_view, 28> gonio::names_of<gonio::scene::Form>{
+    "schlick",   "f82",       "exact",     "none",       "turquin",    "fdez_aguera", "kulla_conty",
+    "tabulated", "schlick_k", "separable", "correlated", "off",        "on",          "off",
+    "on",        "ggx",       "gtr",       "none",       "lambert",    "disney",      "off",
+    "on",        "rgb",       "spectral",  "split_sum",  "quadrature", "float",       "double"};
+
+namespace gonio::scene {
+
+/// By effect.
+inline constexpr std::array<Form, effect_count> cheapest_forms{
+    Form::schlick,  Form::uncompensated, Form::schlick_k,  Form::isotropic,
+    Form::uncoated, Form::ggx_tail,      Form::no_diffuse, Form::uncoupled,
+    Form::rgb,      Form::split_sum,     Form::in_float};
+
+/// Forms of an effect, from cheap to exact.
+std::span<const Form> forms_of(Effect);
+/// That of an effect's forms that is named so.
+std::optional<Form> find_form(Effect, std::string_view name);
 
 /// A form of every effect.
 struct Forms {
-  std::array<std::size_t, effect_count> form{};  ///< [effect], of forms_of
+  std::array<Form, effect_count> form = cheapest_forms;  ///< [effect]
 
-  std::size_t& operator[](Effect e) { return form[static_cast<std::size_t>(e)]; }
-  std::size_t operator[](Effect e) const { return form[static_cast<std::size_t>(e)]; }
-  std::string_view name(Effect e) const { return forms_of(e)[(*this)[e]]; }
+  Form& operator[](Effect e) { return form[static_cast<std::size_t>(e)]; }
+  Form operator[](Effect e) const { return form[static_cast<std::size_t>(e)]; }
+  std::string_view name(Effect e) const { return name_of((*this)[e]); }
   /// True where the form is not the cheapest.
-  bool keeps(Effect e) const { return (*this)[e] > 0; }
+  bool keeps(Effect e) const { return (*this)[e] > cheapest_forms[static_cast<std::size_t>(e)]; }
   bool operator==(const Forms&) const = default;
 };
 

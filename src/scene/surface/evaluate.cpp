@@ -31,14 +31,14 @@ auto SurfaceEvaluator<F>::shape_of(const BoundModel& b, const Lobe& lobe) -> Sha
 template <class F>
 SurfaceEvaluator<F>::SurfaceEvaluator(const Surface& s, const SurfaceKernels<F>& kernels)
     : kernels_(kernels) {
-  const auto how = forms_of(Effect::compensation)[s.multiple.form];
-  multiple_ = how == "turquin"       ? kernels_.layers.turquin
-              : how == "fdez_aguera" ? kernels_.layers.fdez_aguera
-              : how == "kulla_conty" ? kernels_.layers.kulla_conty
-                                     : nullptr;
+  const auto how = s.multiple.form;
+  multiple_ = how == Form::turquin       ? kernels_.layers.turquin
+              : how == Form::fdez_aguera ? kernels_.layers.fdez_aguera
+              : how == Form::kulla_conty ? kernels_.layers.kulla_conty
+                                         : nullptr;
   const auto& m = s.base.model;
   const bool more = !m.diffuse.empty() || m.lobes.size() > 1;
-  const bool alone = multiple_ && how != "kulla_conty" && more;
+  const bool alone = multiple_ && how != Form::kulla_conty && more;
   Model under = m, lobe = m;
   lobe.diffuse.clear();
   lobe.lobes.resize(std::min<std::size_t>(lobe.lobes.size(), 1));

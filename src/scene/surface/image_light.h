@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "brdf/formula/coat.h"
 #include "brdf/formula/scattering.h"
 #include "geometry/sampling.h"
 #include "integrate/light/prefiltered.h"
@@ -108,7 +109,8 @@ std::array<T, 3> image_lit(const ImageLitParts& p, const LookedUp<T>& at) {
     if (p.coat) {
       const T f0(p.coat->f0[c]), weight(p.coat->weight);
       const T once = weight * (f0 * at.coat_a + at.coat_b);
-      sum[c] = sum[c] * (1 - weight * schlick<T>(f0, schlick_weight(at.nov))) + once * at.coat[c];
+      sum[c] = sum[c] * left_by_view<T>(weight * schlick<T>(f0, schlick_weight(at.nov))) +
+               once * at.coat[c];
     }
   }
   return sum;

@@ -29,11 +29,16 @@ constexpr std::size_t channels = 3;
 /// Largest F0 that is taken for a dielectric's: eta = 3.
 constexpr double most_dielectric_f0 = 0.25;
 constexpr double f82_cosine = 1.0 / 7;
-/// The dearest compensation that renderers ship.
-constexpr std::size_t kulla_conty = 3;
+constexpr std::string_view coupled = ".coupled";
+const LobeSpec gltf_coat{"ggx", "smith_ggx.correlated", "schlick.weighted"};
+/// Forms with no compensation dearer than renderers ship.
+Forms as_shipped(Forms f) {
+  f[Effect::compensation] = std::min(f[Effect::compensation], Form::kulla_conty);
+  return f;
+}
 
-std::string_view name_of_term(const TermUse& t) {
-  return short_id(catalogue()[t.term].id());
+std::string name_of_term(const TermUse& t) {
+  return std::string(short_id(catalogue()[t.term].id()));
 }
 bool all_equal(const std::vector<double>& v) {
   return std::ranges::all_of(v, [&](double x) { return x == v[0]; });
@@ -60,13 +65,12 @@ double number_of(const std::vector<Setting>& all, std::string_view name, double 
   return at == all.end() ? otherwise : at->values[0];
 }
 
-std::string spec_of(const Lobe& l) {
-  return fmt::format("{}/{}/{}", name_of_term(l.ndf), name_of_term(l.masking),
-                     name_of_term(l.fresnel));
+LobeSpec spec_of(const Lobe& l) {
+  return {name_of_term(l.ndf), name_of_term(l.masking), name_of_term(l.fresnel)};
 }
 
 /// Model of those of the settings that it has.
-BoundModel bound(const std::string& spec, const std::vector<Setting>& settings) {
+BoundModel bound(const ModelSpec& spec, const std::vector<Setting>& settings) {
   const Model m = compose(spec, 1);
   std::vector<Setting> own;
   for (const auto& s : settings)
@@ -146,7 +150,7 @@ std::shared_ptr<const TabulatedLobe> tabulated_lobe(const BoundModel& lobe,
   static std::mutex making;
   static std::map<std::pair<std::string, std::vector<double>>, std::shared_ptr<const TabulatedLobe>>
       all;
-  std::pair key{lobe.model.spec, lobe.values};
+  std::pair key{to_text(lobe.model.spec), lobe.values};
   for (const auto& c : colours) key.second.insert(key.second.end(), c.begin(), c.end());
   const std::scoped_lock lock(making);
   if (const auto known = all.find(key); known != all.end()) return known->second;
@@ -161,14 +165,16 @@ std::shared_ptr<const TabulatedLobe> tabulated_lobe(const BoundModel& lobe,
 }  // namespace
 
 std::string Surface::spec() const {
-  return coat ? fmt::format("{}+coat:{}", base.model.spec, coat->model.spec) : base.model.spec;
+  ModelSpec all = base.model.spec;
+  if (coat) all.coat = coat->model.spec.lobes[0];
+  return to_text(all);
 }
 
 std::vector<std::pair<std::string, std::vector<double>>> Surface::parameters() const {
   auto all = named_values(base);
   if (coat)
     for (auto& [name, values] : named_values(*coat))
-      all.emplace_back(fmt::format("{}_{}", name, base.model.lobes.size() + 1), values);
+      all.emplace_back(to_text({name, base.model.lobes.size()}), values);
   return all;
 }
 
@@ -178,8 +184,8 @@ Look::Look(const Material& m, std::shared_ptr<const ImageLight> sky) : sky_(std:
   else
     read(std::get<GltfMaterial>(m.is));
   read_spectrum(m);
-  if (coat_.lobe.empty()) {
-    coat_.lobe = "ggx/smith_ggx.correlated/schlick.weighted";
+  if (coat_.lobe.ndf.empty()) {
+    coat_.lobe = gltf_coat;
     coat_.parameters = {{"alpha", {0.01}}, {"f0", {0.04}}, {"weight", {0}}};
   }
   coat_.absent = number_of(coat_.parameters, "weight", 1) == 0;
@@ -225,16 +231,14 @@ void Look::read(const BoundModel& b, bool coated) {
     const Lobe& lobe = lobes.back();
     coat_.lobe = spec_of(lobe);
     coat_.parameters = settings_of(b, {&lobe.ndf, &lobe.masking, &lobe.fresnel});
-    for (auto& s : coat_.parameters)
-      if (lobes.size() > 1) s.name.resize(s.name.rfind('_'));
+    for (auto& s : coat_.parameters) s.name = parse_parameter(s.name).name;
     lobes.pop_back();
   }
   if (!b.model.diffuse.empty()) {
     const TermUse& term = b.model.diffuse[0];
-    std::string_view kind = name_of_term(term);
+    diffuse_.kind = name_of_term(term);
     diffuse_.coupled = catalogue()[term.term].coupled;
-    if (diffuse_.coupled) kind.remove_suffix(std::string_view(".coupled").size());
-    diffuse_.kind = kind;
+    if (diffuse_.coupled) diffuse_.kind.resize(diffuse_.kind.size() - coupled.size());
     diffuse_.own = foreign_term(term.term) != nullptr;
     const auto given = settings_of(b, {&term});
     if (!diffuse_.own) diffuse_.kd = std::ranges::find(given, "kd", &Setting::name)->values;
@@ -250,19 +254,19 @@ void Look::read(const BoundModel& b, bool coated) {
   if (lobes.empty()) return;
   const Lobe& first = lobes[0];
   first_.any = true;
-  first_.ndf = name_of_term(first.ndf);
-  first_.masking = name_of_term(first.masking);
+  first_.lobe = spec_of(first);
   first_.shape = settings_of(b, {&first.ndf, &first.masking});
-  first_.known = family_of(first_.ndf) && stands_for_smith(first_.masking);
+  first_.known = family_of(first_.lobe.ndf) && stands_for_smith(first_.lobe.masking);
   const double alpha = number_of(first_.shape, "alpha", 1);
   first_.alpha_x = number_of(first_.shape, "alpha_x", alpha);
   first_.alpha_y = number_of(first_.shape, "alpha_y", alpha);
   first_.gamma = number_of(first_.shape, "gamma", 2);
-  read_fresnel(name_of_term(first.fresnel), b, first.fresnel);
+  read_fresnel(first_.lobe.fresnel, b, first.fresnel);
   for (std::size_t l = 1; l < lobes.size(); ++l) {
-    const auto given = settings_of(b, {&lobes[l].ndf, &lobes[l].masking, &lobes[l].fresnel});
-    if (number_of(given, fmt::format("weight_{}", l + 1), 1) == 0) continue;  // there is none of it
-    others_ += '+' + spec_of(lobes[l]);
+    auto given = settings_of(b, {&lobes[l].ndf, &lobes[l].masking, &lobes[l].fresnel});
+    if (number_of(given, to_text({"weight", l}), 1) == 0) continue;  // there is none of it
+    others_.push_back(spec_of(lobes[l]));
+    for (auto& s : given) s.name = to_text({parse_parameter(s.name).name, others_.size()});
     others_settings_.insert(others_settings_.end(), given.begin(), given.end());
   }
 }
@@ -274,7 +278,8 @@ void Look::read_fresnel(std::string_view id, const BoundModel& b, const TermUse&
     if (all_equal(f0) && f0[0] <= most_dielectric_f0) {
       const double eta = IorFromF0<double>::apply(std::array{f0[0]})[0];
       const std::vector<Setting> parameters{{"eta", {eta}}};
-      const BoundModel exact = bound("ggx/smith_ggx.correlated/dielectric", parameters);
+      const BoundModel exact =
+          bound(model_of_lobe("ggx", "smith_ggx.correlated", "dielectric"), parameters);
       read_fresnel("dielectric", exact, exact.model.lobes[0].fresnel);
       return;
     }
@@ -283,9 +288,8 @@ void Look::read_fresnel(std::string_view id, const BoundModel& b, const TermUse&
   }
   fresnel_.id = id;
   fresnel_.f0 = f0;
-  fresnel_.has_schlick = id == "dielectric" || id == "conductor" || id == "gulbrandsen" ||
-                         id == "f82" || id == "lazanyi";
-  fresnel_.has_f82 = fresnel_.has_schlick && id != "f82";
+  fresnel_.has_schlick =
+      id == "dielectric" || id == "conductor" || id == "gulbrandsen" || id == "lazanyi";
   const auto edge = reflectance(b, term, f82_cosine);
   for (std::size_t c = 0; c < channels; ++c) fresnel_.f82_tint.push_back(edge_tint(f0[c], edge[c]));
 }
@@ -304,13 +308,11 @@ void Look::read(const GltfMaterial& m) {
   const bool turned = m.anisotropy > 0;
   settings.push_back({"alpha_x", {alpha + (1 - alpha) * m.anisotropy * m.anisotropy}});
   settings.push_back({"alpha_y", {alpha}});
-  read(bound(fmt::format(
-                 "lambert.coupled+{}/schlick.f90",
-                 turned ? "ggx_aniso/smith_ggx_aniso.correlated" : "ggx/smith_ggx.correlated"),
-             settings),
+  const std::string ndf = turned ? "ggx_aniso" : "ggx";
+  read(bound({"lambert.coupled", {{ndf, "smith_" + ndf + ".correlated", "schlick.f90"}}}, settings),
        false);
   turn_ = m.anisotropy_rotation;
-  coat_.lobe = "ggx/smith_ggx.correlated/schlick.weighted";
+  coat_.lobe = gltf_coat;
   coat_.parameters = {
       {"alpha",
        {std::max(m.clearcoat_roughness * m.clearcoat_roughness, alpha_parameter.legal.low)}},
@@ -319,12 +321,11 @@ void Look::read(const GltfMaterial& m) {
 }
 
 void Look::offer_forms() {
-  const auto offer = [&](Effect e, std::vector<std::string_view> names, bool same = false,
+  using enum Form;
+  const auto offer = [&](Effect e, std::vector<Form> forms, bool same = false,
                          std::string why = {}) {
     Offer& o = offers_[static_cast<std::size_t>(e)];
-    const auto all = forms_of(e);
-    for (const auto name : names)
-      o.forms.push_back(static_cast<std::size_t>(std::ranges::find(all, name) - all.begin()));
+    o.forms = std::move(forms);
     o.same_as_exact = same ? o.forms.front() : o.forms.back();
     o.why = same || o.forms.size() == 1 ? std::move(why) : "";
   };
@@ -332,64 +333,65 @@ void Look::offer_forms() {
   if (diffuse_.kind == "none")
     diffuse_ = {.kind = "disney", .coupled = first_.any, .kd = {0, 0, 0}};
   if (diffuse_.kind == "lambert" || diffuse_.kind == "disney") {
-    std::vector<std::string_view> kinds{"none", "lambert"};
-    if (diffuse_.kind == "disney") kinds.emplace_back("disney");
+    std::vector<Form> kinds{no_diffuse, lambert};
+    if (diffuse_.kind == "disney") kinds.push_back(disney);
     if (!first_.any) kinds.erase(kinds.begin());  // it is all that there is
     offer(Effect::diffuse, kinds, dark,
           first_.any ? "its diffuse albedo is 0" : "it is all there is");
   } else {
     offer(
-        Effect::diffuse, {"disney"}, false,
+        Effect::diffuse, {disney}, false,
         diffuse_.own ? "a function of a file has one form" : "its diffuse term is of another kind");
   }
   if (diffuse_.coupled)
-    offer(Effect::coupling, {"off", "on"}, dark, "its diffuse albedo is 0");
+    offer(Effect::coupling, {uncoupled, Form::coupled}, dark, "its diffuse albedo is 0");
   else
-    offer(Effect::coupling, {"off"}, false, "it is given uncoupled");
+    offer(Effect::coupling, {uncoupled}, false, "it is given uncoupled");
 
-  const bool gtr = first_.ndf == "gtr";
+  const bool gtr = first_.lobe.ndf == "gtr";
   const std::string as_given = first_.any ? "its lobe is of another kind" : "it has no lobe";
   if (first_.known && !gtr)
-    offer(Effect::anisotropy, {"off", "on"}, first_.alpha_x == first_.alpha_y,
+    offer(Effect::anisotropy, {isotropic, anisotropic}, first_.alpha_x == first_.alpha_y,
           "it is as wide along the tangent as across");
   else
-    offer(Effect::anisotropy, {"off"}, false, as_given);
+    offer(Effect::anisotropy, {isotropic}, false, as_given);
   if (first_.known && gtr)
-    offer(Effect::tail, {"ggx", "gtr"}, first_.gamma == 2, "gamma is 2, which is GGX");
+    offer(Effect::tail, {ggx_tail, gtr_tail}, first_.gamma == 2, "gamma is 2, which is GGX");
   else
-    offer(Effect::tail, {"ggx"}, false, first_.known ? "its tail is its distribution's" : as_given);
+    offer(Effect::tail, {ggx_tail}, false,
+          first_.known ? "its tail is its distribution's" : as_given);
   if (first_.known) {
-    offer(Effect::masking, {"schlick_k", "separable", "correlated"});
-    std::vector<std::string_view> kinds{"none", "turquin", "fdez_aguera", "kulla_conty"};
-    if (!gtr) kinds.emplace_back("tabulated");
+    offer(Effect::masking, {schlick_k, separable, correlated});
+    std::vector<Form> kinds{uncompensated, turquin, fdez_aguera, kulla_conty};
+    if (!gtr) kinds.push_back(Form::tabulated);
     offer(Effect::compensation, kinds);
   } else {
-    offer(Effect::masking, {first_.any ? "correlated" : "schlick_k"}, false, as_given);
-    offer(Effect::compensation, {"none"}, false, as_given);
+    offer(Effect::masking, {first_.any ? correlated : schlick_k}, false, as_given);
+    offer(Effect::compensation, {uncompensated}, false, as_given);
   }
   if (fresnel_.id == "f82")
-    offer(Effect::fresnel, {"schlick", "f82"});
+    offer(Effect::fresnel, {schlick, f82});
   else if (fresnel_.has_schlick)
-    offer(Effect::fresnel, {"schlick", "f82", "exact"});
+    offer(Effect::fresnel, {schlick, f82, exact_fresnel});
   else if (fresnel_.id == "schlick")
-    offer(Effect::fresnel, {"schlick"}, false, "its F0 is all that is known of it");
+    offer(Effect::fresnel, {schlick}, false, "its F0 is all that is known of it");
   else
-    offer(Effect::fresnel, {first_.any ? "exact" : "schlick"}, false, as_given);
-  offer(Effect::coat, {"off", "on"}, coat_.absent, "its coat has no weight");
+    offer(Effect::fresnel, {first_.any ? exact_fresnel : schlick}, false, as_given);
+  offer(Effect::coat, {uncoated, coated}, coat_.absent, "its coat has no weight");
   if (fresnel_.spectrum)
-    offer(Effect::spectrum, {"rgb", "spectral"});
+    offer(Effect::spectrum, {rgb, Form::spectral});
   else
-    offer(Effect::spectrum, {"rgb"}, false,
+    offer(Effect::spectrum, {rgb}, false,
           fresnel_.is_named ? "its further lobes have none" : "no spectrum is known of it");
   // Two sums stand for one lobe of GGX's kind, and for what is diffuse.
   if (!sky_)
-    offer(Effect::environment, {"split_sum"}, false, "no environment lights it");
+    offer(Effect::environment, {split_sum}, false, "no environment lights it");
   else if (diffuse_.own || (first_.any && (!first_.known || !others_.empty())) ||
-           !coat_.lobe.starts_with("ggx"))
-    offer(Effect::environment, {"quadrature"}, false, "two sums do not stand for its lobes");
+           !coat_.lobe.ndf.starts_with("ggx"))
+    offer(Effect::environment, {quadrature}, false, "two sums do not stand for its lobes");
   else
-    offer(Effect::environment, {"split_sum", "quadrature"});
-  offer(Effect::precision, {"float", "double"});
+    offer(Effect::environment, {split_sum, quadrature});
+  offer(Effect::precision, {in_float, in_double});
 }
 
 Forms Look::exact() const {
@@ -398,19 +400,13 @@ Forms Look::exact() const {
   return f;
 }
 Forms Look::everything() const {
-  Forms f = exact();
-  auto& form = f[Effect::compensation];
-  form = std::min(form, kulla_conty);
-  return f;
+  return as_shipped(exact());
 }
 Forms Look::shipped() const {
-  Forms f = structural();
-  auto& form = f[Effect::compensation];
-  form = std::min(form, kulla_conty);
-  return f;
+  return as_shipped(structural());
 }
 bool Look::is_bounded() const {
-  return !first_.any || exact().name(Effect::compensation) == "tabulated";
+  return !first_.any || exact()[Effect::compensation] == Form::tabulated;
 }
 Forms Look::structural() const {
   Forms f;
@@ -419,86 +415,86 @@ Forms Look::structural() const {
 }
 
 Forms Look::plain(Forms f) const {
-  if (f.name(Effect::diffuse) == "none")
+  if (f[Effect::diffuse] == Form::no_diffuse)
     f[Effect::coupling] = offer(Effect::coupling).forms.front();
-  if (f.name(Effect::fresnel) != "exact")
+  if (f[Effect::fresnel] != Form::exact_fresnel)
     f[Effect::spectrum] = offer(Effect::spectrum).forms.front();
   return f;
 }
 
 Surface Look::surface(const Forms& forms) const {
   Surface s;
-  std::string spec;
+  ModelSpec spec;
   Settings settings;
-  const auto diffuse = forms.name(Effect::diffuse);
-  if (diffuse != "none") {
-    spec = diffuse_.kind == "lambert" || diffuse == "lambert" ? "lambert" : diffuse_.kind;
-    if (forms.name(Effect::coupling) == "on") spec += ".coupled";
+  const auto diffuse = forms[Effect::diffuse];
+  if (diffuse != Form::no_diffuse) {
+    spec.diffuse = diffuse == Form::lambert ? "lambert" : diffuse_.kind;
+    if (forms[Effect::coupling] == Form::coupled) spec.diffuse += coupled;
     if (!diffuse_.own) settings.push_back({"kd", diffuse_.kd});
     settings.insert(settings.end(), diffuse_.others.begin(), diffuse_.others.end());
   }
   if (first_.any) {
-    if (!spec.empty()) spec += '+';
+    LobeSpec lobe = first_.lobe;
     const double alpha = std::sqrt(first_.alpha_x * first_.alpha_y);
     if (first_.known) {
-      const Family& family = *family_of(first_.ndf);
-      const bool anisotropic = forms.name(Effect::anisotropy) == "on";
-      const bool tail = forms.name(Effect::tail) == "gtr";
+      const Family& family = *family_of(first_.lobe.ndf);
+      const bool anisotropic = forms[Effect::anisotropy] == Form::anisotropic;
+      const bool tail = forms[Effect::tail] == Form::gtr_tail;
       // GTR under a masking of GGX is held under that one, as it was given.
-      const std::string_view smith = family.name != "gtr"                              ? family.name
-                                     : tail && first_.masking.starts_with("smith_gtr") ? "gtr"
-                                                                                       : "ggx";
-      const auto masking = forms.name(Effect::masking);
-      spec += anisotropic            ? family.anisotropic
-              : family.name != "gtr" ? family.isotropic
-              : tail                 ? "gtr"
-                                     : "ggx";
-      if (masking == "schlick_k")
-        spec += smith == "beckmann" ? "/schlick_beckmann" : "/schlick_ggx.half_alpha";
+      const std::string_view smith = family.name != "gtr"                            ? family.name
+                                     : tail && lobe.masking.starts_with("smith_gtr") ? "gtr"
+                                                                                     : "ggx";
+      const auto masking = forms[Effect::masking];
+      lobe.ndf = anisotropic            ? family.anisotropic
+                 : family.name != "gtr" ? family.isotropic
+                 : tail                 ? "gtr"
+                                        : "ggx";
+      if (masking == Form::schlick_k)
+        lobe.masking = smith == "beckmann" ? "schlick_beckmann" : "schlick_ggx.half_alpha";
       else
-        spec += fmt::format("/smith_{}{}.{}", smith,
-                            anisotropic && masking == "correlated" ? "_aniso" : "", masking);
+        lobe.masking = fmt::format("smith_{}{}.{}", smith,
+                                   anisotropic && masking == Form::correlated ? "_aniso" : "",
+                                   name_of(masking));
       settings.push_back({"alpha_x", {first_.alpha_x}});
       settings.push_back({"alpha_y", {first_.alpha_y}});
       settings.push_back({"alpha", {alpha}});
       settings.push_back({"gamma", {first_.gamma}});
     } else {
-      spec += first_.ndf + '/' + first_.masking;
       settings.insert(settings.end(), first_.shape.begin(), first_.shape.end());
     }
-    const auto fresnel = forms.name(Effect::fresnel);
-    spec += '/';
-    if (fresnel == "exact" || (fresnel == "f82" && fresnel_.id == "f82")) {
-      spec += fresnel_.id;
+    const auto fresnel = forms[Effect::fresnel];
+    if (fresnel == Form::exact_fresnel || name_of(fresnel) == fresnel_.id) {
+      lobe.fresnel = fresnel_.id;
       settings.insert(settings.end(), fresnel_.parameters.begin(), fresnel_.parameters.end());
     } else {
-      spec += fresnel;
+      lobe.fresnel = name_of(fresnel);
       settings.push_back({"f0", fresnel_.f0});
       settings.push_back({"f82_tint", fresnel_.f82_tint});
     }
+    spec.lobes.push_back(std::move(lobe));
   }
   if (std::ranges::find(settings, "alpha", &Setting::name) == settings.end())
     settings.push_back({"alpha", {diffuse_.alpha}});
   settings.insert(settings.end(), others_settings_.begin(), others_settings_.end());
-  s.base = bound(spec + others_, settings);
-  if (forms.name(Effect::coat) == "on") s.coat = bound(coat_.lobe, coat_.parameters);
-  const bool equations = forms.name(Effect::fresnel) == "exact";
-  if (equations && forms.name(Effect::spectrum) == "spectral") s.spectrum = fresnel_.spectrum;
-  s.single = forms.name(Effect::precision) == "float";
+  spec.lobes.insert(spec.lobes.end(), others_.begin(), others_.end());
+  s.base = bound(spec, settings);
+  if (forms[Effect::coat] == Form::coated) s.coat = bound({"", {coat_.lobe}}, coat_.parameters);
+  const bool equations = forms[Effect::fresnel] == Form::exact_fresnel;
+  if (equations && forms[Effect::spectrum] == Form::spectral) s.spectrum = fresnel_.spectrum;
+  s.single = forms[Effect::precision] == Form::in_float;
 
-  if (sky_ && forms.name(Effect::environment) == "split_sum") s.image_lit = image_lit(s, forms);
+  if (sky_ && forms[Effect::environment] == Form::split_sum) s.image_lit = image_lit(s, forms);
 
   auto& m = s.multiple;
   m.form = forms[Effect::compensation];
   m.albedo = albedo_.curve;
-  const auto how = forms.name(Effect::compensation);
-  if (how == "none") return s;
-  if (how == "tabulated") {
+  if (m.form == Form::uncompensated) return s;
+  if (m.form == Form::tabulated) {
     m.lobe = tabulated();
     return s;
   }
   const bool by_channel = equations && !s.spectrum;
-  if (how == "kulla_conty") {
+  if (m.form == Form::kulla_conty) {
     const bool by_band = fresnel_.spectrum && !by_channel;
     auto strength = by_band ? fresnel_.band_average : fresnel_.average;
     for (double& x : strength) {
@@ -511,13 +507,13 @@ Surface Look::surface(const Forms& forms) const {
   }
   const auto f0 = by_channel ? reflectance(s.base, s.base.model.lobes[0].fresnel, 1) : fresnel_.f0;
   for (std::size_t c = 0; c < channels; ++c)
-    m.strength[c] = how == "turquin" ? f0[c] : schlick_average<double>(f0[c]);
+    m.strength[c] = m.form == Form::turquin ? f0[c] : schlick_average<double>(f0[c]);
   return s;
 }
 
 std::shared_ptr<const TabulatedLobe> Look::tabulated() const {
   Forms forms = structural();
-  forms[Effect::compensation] = 0;
+  forms[Effect::compensation] = Form::uncompensated;
   BoundModel lobe = surface(forms).base;
   lobe.model.diffuse.clear();
   lobe.model.lobes.resize(1);
@@ -529,8 +525,8 @@ std::shared_ptr<const TabulatedLobe> Look::tabulated() const {
   auto settings = settings_of(lobe, {&lobe.model.lobes[0].ndf});
   settings.push_back({"eta", {metal.eta.begin(), metal.eta.end()}});
   settings.push_back({"k", {metal.k.begin(), metal.k.end()}});
-  return tabulated_lobe(bind_model(spec_of(lobe.model.lobes[0]), settings, colours.size()),
-                        colours);
+  return tabulated_lobe(
+      bind_model(ModelSpec{"", {spec_of(lobe.model.lobes[0])}}, settings, colours.size()), colours);
 }
 
 std::shared_ptr<const ImageLit> Look::image_lit(const Surface& s, const Forms& forms) const {
@@ -539,9 +535,10 @@ std::shared_ptr<const ImageLit> Look::image_lit(const Surface& s, const Forms& f
   };
   ImageLitParts parts;
   if (first_.any) {
-    const auto masking = forms.name(Effect::masking);
-    parts.lobe = ImageLitParts::Layer{masking == "schlick_k" ? std::string("schlick_ggx.half_alpha")
-                                                             : fmt::format("smith_ggx.{}", masking),
+    const auto masking = forms[Effect::masking];
+    parts.lobe = ImageLitParts::Layer{masking == Form::schlick_k
+                                          ? std::string("schlick_ggx.half_alpha")
+                                          : fmt::format("smith_ggx.{}", name_of(masking)),
                                       std::sqrt(first_.alpha_x * first_.alpha_y), rgb(fresnel_.f0)};
   }
   if (s.coat) {
@@ -553,8 +550,8 @@ std::shared_ptr<const ImageLit> Look::image_lit(const Surface& s, const Forms& f
     parts.coat = ImageLitParts::Layer{"smith_ggx.correlated", coat_.mean_width, rgb(f0), weight};
   }
   if (!s.base.model.diffuse.empty()) parts.kd = rgb(diffuse_.kd);
-  parts.coupled = forms.name(Effect::coupling) == "on";
-  parts.compensated = forms.name(Effect::compensation) != "none";
+  parts.coupled = forms[Effect::coupling] == Form::coupled;
+  parts.compensated = forms[Effect::compensation] != Form::uncompensated;
   return std::make_shared<const ImageLit>(*sky_, std::move(parts));
 }
 

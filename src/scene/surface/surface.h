@@ -22,7 +22,7 @@ namespace gonio::scene {
 
 /// Light that leaves the first lobe after several bounces, in a form of Effect::compensation.
 struct MultipleScattering {
-  std::size_t form = 0;  ///< of forms_of(Effect::compensation)
+  Form form = Form::uncompensated;
   AlbedoCurve<double> albedo{};
   /// By channel: of turquin F0; of fdez_aguera F_avg; of kulla_conty f of two directions from which
   /// nothing comes out at once [1/sr].
@@ -49,10 +49,10 @@ struct Surface {
 
 /// Forms of an effect that a material leaves to choose.
 struct Offer {
-  std::vector<std::size_t> forms;  ///< cheapest first, the exact one last; never empty
+  std::vector<Form> forms;  ///< cheapest first, the exact one last; never empty
   /// Cheapest form that gives exactly what the exact one gives, and in words why; the exact one itself where every
   /// cheaper form may differ.
-  std::size_t same_as_exact = 0;
+  Form same_as_exact{};
   std::string why;
 };
 
@@ -115,24 +115,24 @@ class Look {
   struct First {
     bool known = false;  ///< its distribution and masking are of those that forms are of
     bool any = false;
-    std::string ndf, masking;  ///< as given
+    LobeSpec lobe;  ///< as given
     double alpha_x = 1, alpha_y = 1, gamma = 2;
     Settings shape;  ///< of D and V as given
   } first_;
   struct Fresnel {
     std::string id;
     Settings parameters;
-    bool has_schlick = false, has_f82 = false;
+    bool has_schlick = false;  ///< the exact form is none that shaders have
     std::vector<double> f0, f82_tint;
     /// Of the exact form over the hemisphere, by channel and by band.
     std::vector<double> average{0, 0, 0}, band_average;
     std::optional<SpectralMetal<double>> spectrum;
     bool is_named = false;  ///< a metal
   } fresnel_;
-  std::string others_;  ///< spec of further lobes, "+…"
+  std::vector<LobeSpec> others_;  ///< further lobes
   Settings others_settings_;
   struct Coat {
-    std::string lobe;
+    LobeSpec lobe;
     Settings parameters;
     double width = 0.1, mean_width = 0.1;  ///< the wider of both, and their geometric mean
     bool absent = false;

@@ -202,7 +202,7 @@ TEST(Evaluate, OfManyChannelsIsThatOfEachByItself) {
           channels, random);
       const auto together = evaluate(all, rows);
       for (std::size_t c = 0; c < channels; ++c) {
-        BoundModel one{compose(all.model.spec, 1), {}, {}};
+        BoundModel one{compose(to_text(all.model.spec), 1), {}, {}};
         for (const auto& p : all.model.parameters) one.values.push_back(all.values[p.slot(c)]);
         EXPECT_EQ(evaluate(one, rows)[0], together[c]) << spec << " " << channels;
       }

@@ -54,24 +54,50 @@ using Values = std::vector<double>;
 // ---- Spec ---------------------------------------------------------------------------------------
 
 TEST(Spec, IsADiffuseTermAndLobesInAnyNumber) {
-  using Parts = std::vector<std::vector<std::string>>;
-  EXPECT_EQ(parse_spec("lambert"), (Parts{{"lambert"}}));
-  EXPECT_EQ(parse_spec("a/b/c"), (Parts{{"a", "b", "c"}}));
-  EXPECT_EQ(parse_spec("d+a/b.x/c+e/f/g"), (Parts{{"d"}, {"a", "b.x", "c"}, {"e", "f", "g"}}));
+  for (const auto& [text, model] :
+       {std::pair<std::string, ModelSpec>{"lambert", {"lambert", {}}},
+        {"a/b/c", {"", {{"a", "b", "c"}}}},
+        {"d+a/b.x/c+e/f/g", {"d", {{"a", "b.x", "c"}, {"e", "f", "g"}}}},
+        {"d+coat:a/b/c", {"d", {}, LobeSpec{"a", "b", "c"}}},
+        {"a/b/c+coat:d/e/f", {"", {{"a", "b", "c"}}, LobeSpec{"d", "e", "f"}}}}) {
+    EXPECT_EQ(parse_model(text), model) << text;
+    EXPECT_EQ(to_text(model), text);
+  }
+  EXPECT_EQ(to_text(coat_as_lobe(parse_model("d+coat:a/b/c"))), "d+a/b/c");
+}
+
+TEST(Spec, WithACoatIsNoModelByItself) {
+  expect_refused([&] { compose("lambert+coat:" + ggx, 1); }, {"a coat"});
+}
+
+TEST(Spec, NamesAParameterByItsLobe) {
+  for (const auto& [text, name, lobe] :
+       {std::tuple<std::string, std::string, std::size_t>{"f0", "f0", 0},
+        {"f0_2", "f0", 1},
+        {"alpha_x_10", "alpha_x", 9},
+        {"alpha_x", "alpha_x", 0},
+        {"a_1", "a_1", 0},
+        {"a_02", "a_02", 0},
+        {"a_", "a_", 0}}) {
+    const auto p = parse_parameter(text);
+    EXPECT_EQ(p.name, name);
+    EXPECT_EQ(p.lobe, lobe);
+    EXPECT_EQ(to_text(p), text);
+  }
 }
 
 TEST(Spec, HasSixteenLobesAtMost) {
   std::string most = "lambert";
   for (int i = 0; i < 16; ++i) most += "+" + ggx;
-  EXPECT_EQ(parse_spec(most).size(), 17u);
-  expect_refused([&] { parse_spec(most + "+" + ggx); }, {"18 parts", "16 lobes"});
+  EXPECT_EQ(parse_model(most).lobes.size(), 16u);
+  expect_refused([&] { parse_model(most + "+" + ggx); }, {"18 parts", "16 lobes"});
 }
 
 TEST(Spec, OfAnotherFormIsRefused) {
   for (const std::string bad :
        {"", "+", "lambert+", "+a/b/c", "a/b", "a/b/c/d", "a//c", "/b/c", "a/b/", "lambert+lambert",
-        "a/b/c+lambert", "lambert+a/b/c+lambert", "a/b/c++d/e/f"})
-    expect_refused([&] { parse_spec(bad); }, {"model '" + bad + "'"});
+        "a/b/c+lambert", "lambert+a/b/c+lambert", "a/b/c++d/e/f", "a/b/c+coat:lambert"})
+    expect_refused([&] { parse_model(bad); }, {"model '" + bad + "'"});
 }
 
 TEST(Spec, WithAnUnknownNameOffersTheNearestOfItsRole) {

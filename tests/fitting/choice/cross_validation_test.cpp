@@ -21,7 +21,7 @@ Table table_of(Layout layout) {
   BoundModel model = paint();
   if (layout == Layout::merl)
     model =
-        bind_model(model.model.spec,
+        bind_model(to_text(model.model.spec),
                    parse_settings(std::vector<std::string>{"alpha=0.2", "f0=0.05", "kd=0.3"}), 3);
   SynthOptions s;
   s.layout = layout;
@@ -90,7 +90,7 @@ TEST(IncidentBlocks, KnowTheSampleWithLightAndViewerExchanged) {
 TEST(CrossValidation, PredictsAngleByAngleWhatTheRightModelHas) {
   const Table t = table_of(Layout::mbsdf);
   FitOptions o;
-  o.model = paint().model.spec;
+  o.model = to_text(paint().model.spec);
   const auto blocks = incident_blocks(by_log(t));
   const auto right = cross_validate(t, pose(t, o), blocks, paint());
   ASSERT_EQ(right.size(), blocks.count);

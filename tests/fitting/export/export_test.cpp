@@ -97,6 +97,15 @@ TEST(ExportedFit, HasTheDiffuseRoughnessOfTargetsThatKnowIt) {
   }
 }
 
+TEST(ExportedFit, TakesAnExtinctionOfOneChannelToMitsuba) {
+  for (const char* k : {"k=0.5,0,0", "k=0,0.5,0", "k=0,0,0.5"}) {
+    const auto fit = bound("ggx/smith_ggx.separable/conductor",
+                           (std::string("alpha=0.3,eta=1.5,1.4,1.5,") + k).c_str());
+    const auto e = export_fit(ExportTarget::mitsuba, "fit.json", fit, 1e9);
+    EXPECT_LT(e.renamed.rms, 0.05) << k;
+  }
+}
+
 TEST(ExportedFit, WritesSpectraForMitsubaWhoseColourIsTheIndexs) {
   const auto e = export_fit(ExportTarget::mitsuba, "fit.json",
                             bound("ggx/smith_ggx.separable/conductor", "alpha=0.3,metal=Au"), 0.02);

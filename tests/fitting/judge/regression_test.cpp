@@ -23,7 +23,7 @@ std::vector<double> of_right_models(std::size_t tables, std::size_t samples) {
     const Table t = synthesize(
         truth, {.layout = Layout::random, .samples = samples, .noise = 0.05, .seed = k + 1});
     FitOptions o;
-    o.model = truth.model.spec;
+    o.model = to_text(truth.model.spec);
     const Problem problem = pose(t, o);
     const Sampling s(t, t.bins(), Metric::log, problem.offset, true);
     const Fitted f = minimise(problem, fit_data<double>(s), truth, no_huber);

@@ -90,7 +90,7 @@ TEST(Undetermined, AsksForMoreThanTheLargestOfNNormalDeviatesMayGive) {
     Table t = exact;
     for (std::size_t i = 0; i < t.size(); ++i) t.values[0][i] *= std::exp(i % 2 ? spread : -spread);
     FitOptions o;
-    o.model = truth.model.spec;
+    o.model = to_text(truth.model.spec);
     o.fixed = parse_settings(std::vector<std::string>{"f0=0.5"});
     const Problem p = pose(t, o);
     const Sampling s(t, Bins::centre, Metric::log, 0, false);
@@ -138,7 +138,7 @@ TEST(Undetermined, KnowsALobeWhoseValuesReachDownToNothing) {
     for (const Layout layout : {Layout::in_plane, Layout::hemisphere}) {
       const auto truth = test::bind(ndf, settings, 3);
       FitOptions o;
-      o.model = "lambert+" + truth.model.spec;
+      o.model = "lambert+" + to_text(truth.model.spec);
       const auto d = fit(synthesize(truth, {.layout = layout, .noise = 0.02}), o).document;
       EXPECT_NEAR(d.residuals.log_rms, 0.02, 0.003) << settings;
       for (const auto& p : truth.model.parameters) {
@@ -162,7 +162,7 @@ TEST(Undetermined, LimitsHoldAsOftenAsTheySay) {
   const auto truth = test::bind("lambert+ggx/smith_ggx.correlated/schlick",
                                 fmt::format("alpha=0.4,f0=0.3,kd={}", kd), 1);
   FitOptions o;
-  o.model = truth.model.spec;
+  o.model = to_text(truth.model.spec);
   std::size_t limits = 0, holds = 0, all = 0;
   for (std::uint64_t seed = 1; seed <= 150; ++seed) {
     const auto d =
@@ -191,7 +191,7 @@ TEST(Undetermined, TakesTheCostsOwnIntervalWhereItIsNoParabola) {
   const auto truth =
       test::bind("lambert+gtr/smith_ggx.correlated/schlick", "alpha=0.2,gamma=2,f0=0.1,kd=0.1", 1);
   FitOptions o;
-  o.model = truth.model.spec;
+  o.model = to_text(truth.model.spec);
   std::vector<double> longer;
   for (std::uint64_t seed = 1; seed <= 9; ++seed) {
     const auto d =
@@ -278,7 +278,7 @@ TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
   const auto truth = test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.5", 1);
   const Table t = synthesize(truth, {.layout = Layout::random, .samples = 200, .noise = 0.02});
   FitOptions o;
-  o.model = truth.model.spec;
+  o.model = to_text(truth.model.spec);
   const Problem p = pose(t, o);
   const auto data = fit_data<double>(Sampling(t, Bins::centre, Metric::log, 0, false));
   Fitted f = minimise(p, data, truth, no_huber);

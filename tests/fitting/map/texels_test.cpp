@@ -162,7 +162,7 @@ void expect_truth(const Stack& s, const TexelFit& f, double most) {
       for (std::size_t t = 0; t < s.texels; ++t)
         EXPECT_NEAR(double{f.columns[column].value[t]}, s.truth[q.first + c][t],
                     most * std::abs(s.truth[q.first + c][t]))
-            << s.model.model.spec << " " << q.name << " of texel " << t;
+            << to_text(s.model.model.spec) << " " << q.name << " of texel " << t;
 }
 
 TEST(Texels, ComeBackWithoutNoise) {

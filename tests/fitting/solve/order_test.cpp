@@ -64,7 +64,7 @@ TEST(Order, LeavesTheLobeWhoseInterfaceTheDiffuseLiesBelow) {
         test::bind(model.c_str(), "alpha=0.4,f0=0.2,alpha_2=0.05,f0_2=0.04,kd=0.3", 1);
     const Table t = synthesize(wide_first, {.layout = Layout::random, .samples = 100});
     FitOptions o;
-    o.model = wide_first.model.spec;
+    o.model = to_text(wide_first.model.spec);
     Problem p = pose(t, o);
     const auto data = fit_data<double>(sampling_for(p, t, t.bins()));
     Fitted f{wide_first, no_huber, {}};

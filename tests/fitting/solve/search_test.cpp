@@ -22,7 +22,7 @@ Searched searched(const Table& t, const FitOptions& o) {
 TEST(Search, FindsTheValuesAndTheCostThatIsLeft) {
   const auto truth = test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.2,kd=0.3", 1);
   FitOptions o;
-  o.model = truth.model.spec;
+  o.model = to_text(truth.model.spec);
   const auto f = searched(synthesize(truth, {.layout = Layout::random}), o).best;
   EXPECT_TRUE(f.solution.converged);
   for (std::size_t i = 0; i < truth.values.size(); ++i)

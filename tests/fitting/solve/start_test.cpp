@@ -12,7 +12,7 @@ namespace gonio {
 namespace {
 
 std::vector<double> start_of(const BoundModel& truth, FitOptions o, Layout layout) {
-  o.model = truth.model.spec;
+  o.model = to_text(truth.model.spec);
   const Table t = synthesize(truth, {.layout = layout, .noise = 0.02});
   const Problem p = pose(t, o);
   const Sampling s(t, t.bins(), Metric::log, 0, true);

@@ -48,7 +48,7 @@ void expect_order_one(const BoundModel& m, double phi = 0) {
     for (std::size_t c = 0; c < m.model.channels; ++c)
       EXPECT_NEAR(walked[i].order[c][0], exact[i].value[c],
                   4 * walked[i].order_error[c][0] + 9.0 / static_cast<double>(goal.walks))
-          << m.model.spec << " channel " << c << " mu " << walk_cosines[i];
+          << to_text(m.model.spec) << " channel " << c << " mu " << walk_cosines[i];
 }
 
 TEST(Walk, OfOneBounceIsSingleScattering) {
@@ -252,7 +252,7 @@ TEST(WalkValue, OfOneBounceIsTheModel) {
       const double exact = evaluate(m, std::span<const FrameAngles<double>>(angles))[0][0];
       const auto value = walk_value(m, p.wi, p.wo, {1, 1 << 13});
       EXPECT_NEAR(value.order[0][0], exact, 4 * value.order_error[0][0] + 1e-12 * exact)
-          << m.model.spec;
+          << to_text(m.model.spec);
     }
 }
 
@@ -271,9 +271,9 @@ TEST(WalkValue, IsReciprocalOrderByOrder) {
         const double value = at_order(there.order[0], n), other = at_order(back.order[0], n);
         const double error =
             std::hypot(at_order(there.order_error[0], n), at_order(back.order_error[0], n));
-        EXPECT_NEAR(value, other, 4.5 * error) << m.model.spec << " " << n;
+        EXPECT_NEAR(value, other, 4.5 * error) << to_text(m.model.spec) << " " << n;
         if (n == 1) {
-          EXPECT_LT(error, 0.15 * value + 5e-4) << m.model.spec;
+          EXPECT_LT(error, 0.15 * value + 5e-4) << to_text(m.model.spec);
         }
       }
     }

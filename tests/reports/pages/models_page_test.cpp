@@ -113,7 +113,7 @@ TEST(ModelsPage, DrawsEachModelInItsOwnCutsOfAList) {
     ModelChoice c;
     for (const std::size_t k : {first, 1 - first}) {
       ModelRow r;
-      r.model = fits[k].model.spec;
+      r.model = to_text(fits[k].model.spec);
       r.compared = r.converged = true;
       r.log_rms = 0.1 * static_cast<double>(c.rows.size() + 1);
       r.ns = 1;

@@ -53,7 +53,7 @@ TEST(Scene, HasWhatItsFileSays) {
   EXPECT_EQ(std::get<FromSpec>(s.materials[0].from).model, "gltf");
   const auto& gold = std::get<BoundModel>(s.materials[0].is);
   EXPECT_EQ(gold.model.channels, 3U);
-  EXPECT_EQ(gold.model.spec, "lambert.coupled+ggx/smith_ggx.separable/schlick");
+  EXPECT_EQ(to_text(gold.model.spec), "lambert.coupled+ggx/smith_ggx.separable/schlick");
   EXPECT_EQ(gold.values[gold.model.find("f0")->slot(1)], 0.71);
   EXPECT_DOUBLE_EQ(gold.values[gold.model.find("alpha")->first], 0.45 * 0.45);
   const auto& foil = std::get<BoundModel>(s.materials[2].is);

@@ -57,10 +57,11 @@ TEST(ChangeBound, IsNeverExceeded) {
     s.tolerance.metric = Metric::relative;
     const Lit lit(s);
     const Look& look = lit.looks[0];
-    const auto bound = change_bound(look, Effect::fresnel, 0, reached_angles(s, s.objects[0]));
+    const auto bound =
+        change_bound(look, Effect::fresnel, Form::schlick, reached_angles(s, s.objects[0]));
     ASSERT_TRUE(bound);
     Forms forms = look.exact();
-    forms[Effect::fresnel] = 0;
+    forms[Effect::fresnel] = Form::schlick;
     const auto surface = look.surface(forms);
     double worst = 0;
     constexpr std::size_t part = 50'000;
@@ -83,9 +84,10 @@ TEST(ChangeBound, IsNearlyMetByAMetal) {
   const Lit lit(s);
   const Look& look = lit.looks[0];
   Forms exact = look.structural(), forms = exact;
-  exact[Effect::compensation] = forms[Effect::compensation] = 0;
-  forms[Effect::fresnel] = 0;
-  const auto bound = change_bound(look, Effect::fresnel, 0, reached_angles(s, s.objects[0]));
+  exact[Effect::compensation] = forms[Effect::compensation] = Form::uncompensated;
+  forms[Effect::fresnel] = Form::schlick;
+  const auto bound =
+      change_bound(look, Effect::fresnel, Form::schlick, reached_angles(s, s.objects[0]));
   ASSERT_TRUE(bound);
   const Reference reference(s, lit.drawer(0, 1).draw(9, 0, 500), look.surface(exact));
   double worst = 0;
@@ -97,7 +99,7 @@ TEST(ChangeBound, IsNearlyMetByAMetal) {
 
 TEST(ChangeBound, ProvesNothingOfOtherEffects) {
   const Look look(test::red_plastic());
-  EXPECT_FALSE(change_bound(look, Effect::masking, 0, {}));
+  EXPECT_FALSE(change_bound(look, Effect::masking, Form::schlick_k, {}));
 }
 
 TEST(DeltaEBound, HoldsForColoursOfAllKinds) {

@@ -91,7 +91,7 @@ TEST(Plan, CountsWhatLiesBetweenTheNodesOfATable) {
   const Look look(test::satin_gold());
   Forms forms = look.structural();
   const double all = operations_of(look.surface(forms), {});
-  forms[Effect::compensation] = 0;
+  forms[Effect::compensation] = Form::uncompensated;
   constexpr double places = 64, each = 8;  // two shares, and a product and a sum a channel
   EXPECT_GT(all, operations_of(look.surface(forms), {}) + places * each);
 }
@@ -120,7 +120,7 @@ TEST(Plan, HoldsToTheLastWhereAllIsKnown) {
 /// f of several bounces by a walk of its own, at each row.
 std::vector<Rgb> shaded_by_walks(const Look& look, const LitPoints& p) {
   Forms single = look.exact();
-  single[Effect::compensation] = 0;
+  single[Effect::compensation] = Form::uncompensated;
   const Surface s = look.surface(single);
   auto sum = radiance(s, p, LitColumns(p.angles));
   const WalkGoal goal{99, 1 << 14};
@@ -292,7 +292,7 @@ TEST(Verify, TakesMaterialsForOneWhereTheirFormsAreTheSame) {
   const Look look(s.materials[0]);
   const Forms same = look.structural();
   Forms other = same;
-  other[Effect::fresnel] = 0;
+  other[Effect::fresnel] = Form::schlick;
   const auto worst = [&](const Forms& a, const Forms& b) {
     const auto v = verify(s, {{a, b}}, 1, 512);
     return std::array{v.materials.at(0).found.worst, v.materials.at(1).found.worst};
@@ -325,7 +325,7 @@ TEST(Verify, BreaksAPlanThatDropsTooMuch) {
   const Look look(s.materials[0]);
   Forms forms = look.structural();
   EXPECT_TRUE(verify(s, {{forms}}, 1, 4096).holds());
-  forms[Effect::fresnel] = 0;
+  forms[Effect::fresnel] = Form::schlick;
   const auto v = verify(s, {{forms}}, 1, 4096);
   EXPECT_FALSE(v.holds());
   EXPECT_GT(v.materials[0].found.exceeding, 41U);
@@ -384,7 +384,7 @@ TEST(Verify, FindsALookupThatAPlanDoesNotAllow) {
   PlannedForms forms;
   forms.by_material = {look.exact()};
   EXPECT_TRUE(verify(s, forms, 1, 512).holds());
-  (*forms.by_material[0])[Effect::environment] = 0;
+  (*forms.by_material[0])[Effect::environment] = Form::split_sum;
   EXPECT_FALSE(verify(s, forms, 1, 512).holds());
 }
 

@@ -113,7 +113,7 @@ TEST(Render, AddsUpARectangleAsItsAreaDoes) {
       }
     const Look look(m);
     Forms single = look.exact();
-    single[Effect::compensation] = 0;  // "none"
+    single[Effect::compensation] = Form::uncompensated;
     const auto f =
         evaluate(look.surface(single).base, std::span<const FrameAngles<double>>(angles));
     const Look same(m);
@@ -145,12 +145,12 @@ TEST(Render, GivesTheSamePictureForTheSameSeedWhateverTheThreads) {
 TEST(Render, DrawsTheSameDirectionsForEveryForm) {
   const Scene s = lit(gold, {even(1)});
   const Look look(gold);
-  const auto of = [&](std::string_view precision) {
+  const auto of = [&](Form precision) {
     Forms f = look.exact();
-    f[Effect::precision] = precision == "float" ? 0 : 1;
+    f[Effect::precision] = precision;
     return render(s, std::array{Shown(look, f)}, {16, 16, 4, 1});
   };
-  const Picture wide = of("double"), narrow = of("float");
+  const Picture wide = of(Form::in_double), narrow = of(Form::in_float);
   EXPECT_NE(wide.radiance, narrow.radiance);
   for (std::size_t k = 0; k < wide.radiance.size(); ++k)
     EXPECT_NEAR(narrow.radiance[k][1], wide.radiance[k][1], 1e-5 * wide.radiance[k][1]);
@@ -192,7 +192,7 @@ TEST(Render, LooksTheEnvironmentUpInPlaceOfItsDirections) {
   std::get<Camera>(s.view).fov_deg = 1e-3;
   const Look look = std::move(looks_of(s)[0]);
   Forms forms = look.exact();
-  forms[Effect::environment] = 0;
+  forms[Effect::environment] = Form::split_sum;
   const Rgb drawn =
       render(s, std::array{Shown(look, look.exact())}, {1, 1, 1 << 12, 1}).radiance[0];
   const Rgb looked_up = render(s, std::array{Shown(look, forms)}, {1, 1, 1, 1}).radiance[0];

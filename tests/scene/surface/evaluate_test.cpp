@@ -51,17 +51,16 @@ std::array<Column<F>, 3> values(const Surface& s,
 }
 
 /// Exact surface of a material, with one effect in another form.
-Surface with(const Material& m, Effect e, std::string_view form, bool lean = true) {
+Surface with(const Material& m, Effect e, Form form, bool lean = true) {
   const Look look(m);
   Forms forms = lean ? look.structural() : look.exact();
-  const auto all = forms_of(e);
-  forms[e] = static_cast<std::size_t>(std::ranges::find(all, form) - all.begin());
+  forms[e] = form;
   return look.surface(forms);
 }
 
 TEST(SurfaceEvaluator, AddsKullaAndContysLobe) {
-  const auto none = with(test::satin_gold(), Effect::compensation, "none");
-  const auto all = with(test::satin_gold(), Effect::compensation, "kulla_conty");
+  const auto none = with(test::satin_gold(), Effect::compensation, Form::uncompensated);
+  const auto all = with(test::satin_gold(), Effect::compensation, Form::kulla_conty);
   const auto angles = some_angles();
   const auto f = values<double>(none, angles), g = values<double>(all, angles);
   for (std::size_t i = 0; i < n; ++i)
@@ -85,8 +84,8 @@ Rgb walked(const BoundModel& bands,
 }
 
 TEST(SurfaceEvaluator, AddsTheLobeOfWalksInTheColoursOfAMetal) {
-  const auto none = with(test::satin_gold(), Effect::compensation, "none");
-  const auto all = with(test::satin_gold(), Effect::compensation, "tabulated");
+  const auto none = with(test::satin_gold(), Effect::compensation, Form::uncompensated);
+  const auto all = with(test::satin_gold(), Effect::compensation, Form::tabulated);
   const auto angles = some_angles();
   const auto f = values<double>(none, angles);
   std::array<Column<double>, 3> off;
@@ -108,8 +107,8 @@ TEST(SurfaceEvaluator, AddsTheLobeOfWalksInTheColoursOfAMetal) {
 }
 
 TEST(SurfaceEvaluator, BrightensTheLobeAloneByTurquin) {
-  const auto none = with(test::red_plastic(), Effect::compensation, "none");
-  const auto all = with(test::red_plastic(), Effect::compensation, "turquin");
+  const auto none = with(test::red_plastic(), Effect::compensation, Form::uncompensated);
+  const auto all = with(test::red_plastic(), Effect::compensation, Form::turquin);
   Surface lobe = none;
   lobe.base.model.diffuse.clear();
   const auto angles = some_angles();
@@ -124,8 +123,8 @@ TEST(SurfaceEvaluator, BrightensTheLobeAloneByTurquin) {
 }
 
 TEST(SurfaceEvaluator, BrightensByFdezAguera) {
-  const auto none = with(test::satin_gold(), Effect::compensation, "none");
-  const auto all = with(test::satin_gold(), Effect::compensation, "fdez_aguera");
+  const auto none = with(test::satin_gold(), Effect::compensation, Form::uncompensated);
+  const auto all = with(test::satin_gold(), Effect::compensation, Form::fdez_aguera);
   const auto angles = some_angles();
   const auto f = values<double>(none, angles), g = values<double>(all, angles);
   for (std::size_t i = 0; i < n; ++i) {
@@ -137,7 +136,7 @@ TEST(SurfaceEvaluator, BrightensByFdezAguera) {
 TEST(SurfaceEvaluator, LosesNothingOfAWhiteLobeWithKullaAndConty) {
   const auto all =
       with(test::material("ggx/smith_ggx.correlated/schlick", {"f0=1,1,0.999999", "alpha=0.7"}),
-           Effect::compensation, "kulla_conty");
+           Effect::compensation, Form::kulla_conty);
   const Coordinates<double> v{std::sqrt(1 - 0.36), 0, 0.6};
   std::vector<FrameAngles<double>> angles;
   const auto nodes = cosine_hemisphere(64, 128);
@@ -151,8 +150,8 @@ TEST(SurfaceEvaluator, LosesNothingOfAWhiteLobeWithKullaAndConty) {
 }
 
 TEST(SurfaceEvaluator, LaysTheCoatOnAllElse) {
-  const auto bare = with(test::car_paint(), Effect::coat, "off");
-  const auto coated = with(test::car_paint(), Effect::coat, "on");
+  const auto bare = with(test::car_paint(), Effect::coat, Form::uncoated);
+  const auto coated = with(test::car_paint(), Effect::coat, Form::coated);
   Surface lobe = bare;  // the coat alone, as a model of its own
   lobe.base = *coated.coat;
   lobe.multiple = {};
@@ -173,8 +172,8 @@ Rgb reflectance(const char* metal, double voh) {
 TEST(SurfaceEvaluator, ReflectsTheSpectrumOfAMetal) {
   const auto white =
       with(test::material("ggx/smith_ggx.correlated/schlick", {"roughness=0.45", "f0=1"}),
-           Effect::compensation, "none");
-  const auto gold = with(test::satin_gold(), Effect::compensation, "none");
+           Effect::compensation, Form::uncompensated);
+  const auto gold = with(test::satin_gold(), Effect::compensation, Form::uncompensated);
   ASSERT_TRUE(gold.spectrum);
   const auto angles = some_angles();
   const auto shape = values<double>(white, angles), f = values<double>(gold, angles);
@@ -188,7 +187,7 @@ TEST(SurfaceEvaluator, LetsTheRestOfTheSpectrumThroughToACoupledDiffuse) {
   const auto made = [](const char* kd) {
     return with(test::material("lambert.coupled+ggx/smith_ggx.correlated/conductor",
                                {"roughness=0.45", "metal=Au", kd}),
-                Effect::compensation, "none");
+                Effect::compensation, Form::uncompensated);
   };
   const auto lit = made("kd=0.5"), dark = made("kd=0");
   ASSERT_TRUE(lit.spectrum && dark.spectrum && dark.base.model.diffuse.empty());
@@ -204,7 +203,7 @@ TEST(SurfaceEvaluator, LetsTheRestOfTheSpectrumThroughToACoupledDiffuse) {
 
 TEST(SurfaceEvaluator, BrightensASpectralLobeAlone) {
   const auto angles = some_angles();
-  for (const char* how : {"turquin", "fdez_aguera"}) {
+  for (const auto how : {Form::turquin, Form::fdez_aguera}) {
     const auto of = [&](const char* kd) {
       return values<double>(with(test::material("lambert+ggx/smith_ggx.correlated/conductor",
                                                 {"roughness=0.6", "metal=Cu", kd}),
@@ -220,7 +219,7 @@ TEST(SurfaceEvaluator, BrightensASpectralLobeAlone) {
 TEST(SurfaceEvaluator, ComputesTheSameFusedAndComposed) {
   const Look look(test::satin_gold());
   Forms forms = look.structural();
-  forms[Effect::fresnel] = 0;
+  forms[Effect::fresnel] = Form::schlick;
   const auto s = look.surface(forms);
   EXPECT_TRUE(SurfaceEvaluator<double>(s).is_fused());
   EXPECT_FALSE((SurfaceEvaluator<double>(s, SurfaceKernels<double>::composed()).is_fused()));
@@ -232,10 +231,10 @@ TEST(SurfaceEvaluator, ComputesTheSameFusedAndComposed) {
 
 TEST(SurfaceEvaluator, ComputesTheSameBitsInEveryInstructionSet) {
   const auto angles = some_angles();
-  for (const auto& s : {with(test::car_paint(), Effect::compensation, "turquin"),
-                        with(test::car_paint(), Effect::compensation, "fdez_aguera"),
-                        with(test::car_paint(), Effect::compensation, "kulla_conty"),
-                        with(test::satin_gold(), Effect::spectrum, "spectral")}) {
+  for (const auto& s : {with(test::car_paint(), Effect::compensation, Form::turquin),
+                        with(test::car_paint(), Effect::compensation, Form::fdez_aguera),
+                        with(test::car_paint(), Effect::compensation, Form::kulla_conty),
+                        with(test::satin_gold(), Effect::spectrum, Form::spectral)}) {
     const auto in = [&](std::string_view set) {
       SurfaceKernels<float> k{kernels<float>(set), layer_kernels<float>(set)};
       k.terms.fused = {};
@@ -290,11 +289,12 @@ TEST(SurfaceEvaluator, NeverCallsTheKernelOfADroppedEffect) {
   const auto angles = some_angles();
   const Look look(test::car_paint());
   Forms forms = look.structural();
-  forms[Effect::compensation] = 3;  // Kulla and Conty
+  forms[Effect::compensation] = Form::kulla_conty;
   values<double>(look.surface(forms), angles, k);
   EXPECT_EQ(called, 2 * n / Evaluator<double>::Between::block);  // several bounces, and the coat
   called = 0;
-  forms[Effect::compensation] = forms[Effect::coat] = 0;
+  forms[Effect::compensation] = Form::uncompensated;
+  forms[Effect::coat] = Form::uncoated;
   values<double>(look.surface(forms), angles, k);
   EXPECT_EQ(called, 0U);
 
@@ -304,10 +304,10 @@ TEST(SurfaceEvaluator, NeverCallsTheKernelOfADroppedEffect) {
     ++called;
     counted_spectral(x, m, c);
   };
-  values<double>(with(test::satin_gold(), Effect::compensation, "none"), angles, k);
+  values<double>(with(test::satin_gold(), Effect::compensation, Form::uncompensated), angles, k);
   EXPECT_EQ(called, n / Evaluator<double>::Between::block);
   called = 0;
-  auto in_rgb = with(test::satin_gold(), Effect::spectrum, "rgb");
+  auto in_rgb = with(test::satin_gold(), Effect::spectrum, Form::rgb);
   in_rgb.multiple = {};
   values<double>(in_rgb, angles, k);
   EXPECT_EQ(called, 0U);
@@ -316,7 +316,7 @@ TEST(SurfaceEvaluator, NeverCallsTheKernelOfADroppedEffect) {
 TEST(SurfaceEvaluator, DoesNotSeeParametersOfADroppedEffect) {
   const auto angles = some_angles();
   const auto f = [&](const Material& m) {
-    return values<double>(with(m, Effect::coat, "off"), angles);
+    return values<double>(with(m, Effect::coat, Form::uncoated), angles);
   };
   Material other = test::car_paint();
   auto& b = std::get<BoundModel>(other.is);

@@ -18,7 +18,7 @@ EnvironmentLight even_sky(double scale) {
 Surface looked_up(const Material& m, const std::shared_ptr<const ImageLight>& sky) {
   const Look look(m, sky);
   Forms forms = look.structural();
-  forms[Effect::environment] = 0;
+  forms[Effect::environment] = Form::split_sum;
   return look.surface(forms);
 }
 
@@ -76,7 +76,7 @@ TEST(Look, LooksUpAnEnvironmentWhereThereIsOne) {
       test::material("ggx/smith_ggx.correlated/schlick+beckmann/smith_beckmann.correlated/schlick",
                      {"f0=0.9,0.5,0.2", "alpha_2=0.4", "f0_2=0.1"}),
       sky);
-  EXPECT_EQ(two.offer(Effect::environment).forms, (std::vector<std::size_t>{1}));
+  EXPECT_EQ(two.offer(Effect::environment).forms, (std::vector{Form::quadrature}));
 }
 
 }  // namespace

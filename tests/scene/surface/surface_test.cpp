@@ -39,14 +39,14 @@ Rgb value(const Surface& s, const FrameAngles<double>& a) {
 TEST(Look, TakesAMetalForFresnelsEquationsUnderCorrelatedSmith) {
   const Look look(test::satin_gold());
   EXPECT_EQ(look.surface(look.structural()).spec(), "ggx/smith_ggx.correlated/conductor");
-  EXPECT_EQ(look.exact().name(Effect::compensation), "tabulated");
+  EXPECT_EQ(look.exact()[Effect::compensation], Form::tabulated);
   EXPECT_TRUE(look.is_bounded());
-  EXPECT_EQ(look.everything().name(Effect::compensation), "kulla_conty");
+  EXPECT_EQ(look.everything()[Effect::compensation], Form::kulla_conty);
 }
 
 TEST(Look, KnowsNoBoundWhereItKnowsNoWalk) {
   const Look gtr(test::material("gtr/smith_gtr.correlated/schlick", {"gamma=1.5"}));
-  EXPECT_EQ(gtr.exact().name(Effect::compensation), "kulla_conty");
+  EXPECT_EQ(gtr.exact()[Effect::compensation], Form::kulla_conty);
   EXPECT_FALSE(gtr.is_bounded());
   EXPECT_FALSE(gtr.surface(gtr.exact()).multiple.lobe);
   EXPECT_FALSE(
@@ -73,34 +73,31 @@ TEST(Look, OfAWorkflowsOwnTermsIsThatOfTheReflectancesTheyStandFor) {
 
 TEST(Look, KnowsTheSpectrumOfAMetalThatIsNamed) {
   const Look gold(test::satin_gold());
-  EXPECT_EQ(gold.exact().name(Effect::spectrum), "spectral");
+  EXPECT_EQ(gold.exact()[Effect::spectrum], Form::spectral);
   EXPECT_TRUE(gold.surface(gold.exact()).spectrum);
-  const auto values_of = [&](const char* fresnel, const char* spectrum) {
+  const auto values_of = [&](Form fresnel, Form spectrum) {
     Forms f = gold.structural();
-    const auto put = [&](Effect e, std::string_view form) {
-      f[e] = static_cast<std::size_t>(std::ranges::find(forms_of(e), form) - forms_of(e).begin());
-    };
-    put(Effect::fresnel, fresnel);
-    put(Effect::spectrum, spectrum);
+    f[Effect::fresnel] = fresnel;
+    f[Effect::spectrum] = spectrum;
     return gold.surface(f);
   };
-  const auto schlick = values_of("schlick", "rgb");
+  const auto schlick = values_of(Form::schlick, Form::rgb);
   EXPECT_FALSE(schlick.spectrum);
   const auto* f0 = &schlick.base.values[schlick.base.model.find("f0")->first];
   EXPECT_EQ(f0[0], 1) << "its red is 1.0376";
   EXPECT_NEAR(f0[1], 0.7284 / std::sqrt(1.0376), 4e-3);
   EXPECT_NEAR(f0[2], 0.3646 / std::sqrt(1.0376), 4e-3);
-  EXPECT_FALSE(values_of("exact", "rgb").spectrum);
-  EXPECT_FALSE(values_of("schlick", "spectral").spectrum) << "Schlick's form has none";
+  EXPECT_FALSE(values_of(Form::exact_fresnel, Form::rgb).spectrum);
+  EXPECT_FALSE(values_of(Form::schlick, Form::spectral).spectrum) << "Schlick's form has none";
 
   const Look by_index(test::material("ggx/smith_ggx.correlated/conductor", {"eta=0.2", "k=3"}));
-  EXPECT_EQ(by_index.offer(Effect::spectrum).forms, (std::vector<std::size_t>{0}));
+  EXPECT_EQ(by_index.offer(Effect::spectrum).forms, std::vector{Form::rgb});
   EXPECT_FALSE(by_index.offer(Effect::spectrum).why.empty());
 }
 
 TEST(Look, LeavesAColouredF0Schlick) {
   const Look look(test::material("ggx/smith_ggx.correlated/schlick", {"f0=0.9,0.6,0.2"}));
-  EXPECT_EQ(look.offer(Effect::fresnel).forms, (std::vector<std::size_t>{0}));
+  EXPECT_EQ(look.offer(Effect::fresnel).forms, std::vector{Form::schlick});
   EXPECT_FALSE(look.offer(Effect::fresnel).why.empty());
 }
 
@@ -109,7 +106,7 @@ TEST(Look, LeavesTermsThatNoFormStandsForAsTheyAre) {
                                  {"kd=0.5,0.3,0.1", "r=0.7", "alpha=0.3", "tail=0.4"}));
   for (const auto& forms : {look.structural(), look.exact()}) {
     const auto s = look.surface(forms);
-    EXPECT_EQ(s.base.model.spec, "eon+student_t/smith_student_t.correlated/conductor");
+    EXPECT_EQ(to_text(s.base.model.spec), "eon+student_t/smith_student_t.correlated/conductor");
     const auto is = [&](const char* name) { return s.base.values[s.base.model.find(name)->first]; };
     EXPECT_EQ(is("kd"), 0.5);
     EXPECT_EQ(is("r"), 0.7);
@@ -118,6 +115,16 @@ TEST(Look, LeavesTermsThatNoFormStandsForAsTheyAre) {
   EXPECT_EQ(look.offer(Effect::diffuse).why, "its diffuse term is of another kind");
   const Look mixed(test::material("ggx/smith_student_t.correlated/conductor", {"tail=0.4"}));
   EXPECT_EQ(mixed.surface(mixed.structural()).spec(), "ggx/smith_student_t.correlated/conductor");
+}
+
+TEST(Look, KeepsTheParametersOfALobeBehindOneWithoutWeight) {
+  const std::string weighted = "+beckmann/smith_beckmann.correlated/schlick.weighted";
+  const Look look(test::material("ggx/smith_ggx.correlated/schlick" + weighted + weighted,
+                                 {"weight_2=0", "alpha_3=0.37", "weight_3=0.5"}));
+  const auto& base = look.surface(look.structural()).base;
+  ASSERT_EQ(base.model.lobes.size(), 2U);
+  EXPECT_EQ(base.values[base.model.find("alpha_2")->first], 0.37);
+  EXPECT_EQ(base.values[base.model.find("weight_2")->first], 0.5);
 }
 
 TEST(Look, GivesTheExactFormLast) {
