@@ -225,7 +225,7 @@ FitResult fit_and_judge(const Table& t,
   const char* in_words = judged.in_words;
   if (o.intervals == Intervals::bootstrap) {
     announce("fits of tables drawn from this one");
-    if (bootstrap(sampling_of(bins, false), p, f, shared, lack.widening, judged.seen_against, u))
+    if (bootstrap(sampling_of(bins, false), p, f, shared, lack, judged.seen_against, u))
       in_words = shared ? "bootstrap of incident angles" : "bootstrap of values";
     watch.lap("bootstrap_ms");
   }
@@ -239,6 +239,7 @@ FitResult fit_and_judge(const Table& t,
   d.robust = o.robust ? "huber" : "none";
   d.cost = f.solution.at.cost;
   d.intervals = in_words;
+  for (const auto& gains : lack.gains) d.intervals += ", and errors shared by each " + gains.of;
   d.clusters = judged.clusters;
   d.residuals = a.residuals;
   if (beside) d.residuals.chi2_per_freedom = beside->chi2_per_freedom;

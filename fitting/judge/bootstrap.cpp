@@ -48,7 +48,7 @@ bool bootstrap(const Sampling& unfolded,
                const Problem& p,
                const Fitted& f,
                bool by_angle,
-               double widening,
+               const LackOfFit& lack,
                std::span<const double> seen_against,
                Uncertainty& u) {
   const std::size_t channels = unfolded.channels(), n = p.free.size();
@@ -86,7 +86,8 @@ bool bootstrap(const Sampling& unfolded,
     }
     constexpr double tables = bootstrap_tables;
     const double error = std::sqrt(std::max(0.0, squares - sum * sum / tables) / (tables - 1));
-    u.std_error[i] = widened(error, widening, seen_against[i]);
+    u.std_error[i] =
+        with_gains(lack, i, widened(error, lack.widening, seen_against[i]), u.freedom[i]);
     const double wider = error > 0 ? u.std_error[i] / error : 1;
     u.low[i] = value + wider * quantile(moves, 0.025);
     u.high[i] = value + wider * quantile(moves, 0.975);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 
+#include "fitting/judge/lack_of_fit.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
@@ -19,13 +20,13 @@ inline constexpr std::size_t bootstrap_tables = 400;
 /// values is then smaller by the root of their number.
 /// A row is drawn whole, however many samples it counts as.
 /// \param by_angle      whether whole incident angles are drawn, as IncidentKeys tells them apart
-/// \param widening      of the intervals, by a misfit   \param seen_against  see widened()
+/// \param seen_against  see widened()
 /// \returns false, and leaves all as it is, where there are not two to draw from
 bool bootstrap(const Sampling& unfolded,
                const Problem&,
                const Fitted&,
                bool by_angle,
-               double widening,
+               const LackOfFit&,
                std::span<const double> seen_against,
                Uncertainty&);
 

@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <utility>
 #include <vector>
 
 #include "base/quantile.h"
 #include "fitting/judge/regression.h"
 #include "fitting/judge/warnings.h"
+#include "number/distributions.h"
 
 namespace gonio {
 namespace {
@@ -44,12 +46,14 @@ std::optional<OddAngle> odd_angle(const Left& left, const Sampling& s) {
   constexpr double least = 0.05;      // of a scale
   constexpr double stands_out = 3;    // times as far as any other angle
   constexpr double of_one_kind = .5;  // of the deviation, by which its values scatter
-  if (left.angles < few_angles || left.angles > most_angles) return {};
-  std::vector<std::vector<double>> off(left.angles);  // ln of data over model
-  std::vector<std::size_t> sample(left.angles);
+  constexpr auto incident = static_cast<std::size_t>(SharedAngle::incident);
+  const std::size_t angles = left.angles[incident];
+  if (angles < few_angles || angles > most_angles) return {};
+  std::vector<std::vector<double>> off(angles);  // ln of data over model
+  std::vector<std::size_t> sample(angles);
   for (const auto& v : left.values) {
     if (!(v.change > 0)) continue;
-    const std::size_t a = left.units[v.unit].angle;
+    const std::size_t a = left.units[v.unit].angle[incident];
     off[a].push_back(-v.whole / v.change);
     sample[a] = v.sample;
   }
@@ -73,35 +77,157 @@ std::optional<OddAngle> odd_angle(const Left& left, const Sampling& s) {
   return OddAngle{SampleAngles(s.table()).theta_i(sample[a]) / degree, std::exp(deviation)};
 }
 
+std::size_t number_of_angles(const Left& left, SharedAngle axis) {
+  return left.angles[static_cast<std::size_t>(axis)];
+}
+
+/// Axes whose angles may each have a scale: what scatters between them more than values do within them, and but for
+/// incident angles from one to the next.  Places of light and detector follow, where these scatter more than their angles do.
+class Scales {
+ public:
+  struct Scaled {
+    SharedAngle of;
+    double square;                     ///< mean square of the scales
+    std::vector<SharedAngle> coarser;  ///< axes that it took the place of
+  };
+  /// \param by_incident  whether those of incident angles are open whatever the values show
+  Scales(const Left& all_values, bool by_incident)
+      : left_(thinned(all_values, most_values)), now_(regress(left_, {}, {}, true)) {
+    if (now_.rounded) return;
+    using enum SharedAngle;
+    if (by_incident && has_room(left_, incident)) open({incident});
+    while (open_best({incident, outgoing, azimuth})) {
+    }
+    refine(light, {incident});
+    refine(detector, {outgoing, azimuth});
+  }
+
+  std::vector<Scaled> all;
+  double luck = 1;  ///< probability of one of them by chance
+
+  std::vector<SharedAngle> axes() const {
+    std::vector<SharedAngle> of;
+    for (const auto& s : all) of.push_back(s.of);
+    return of;
+  }
+
+ private:
+  static constexpr double chance = 0.05;
+  static constexpr std::size_t most_values = 1 << 13;
+  bool is_open(SharedAngle a) const { return std::ranges::find(all, a, &Scaled::of) != all.end(); }
+  std::vector<SharedAngle> axes_with(SharedAngle a) const {
+    auto of = axes();
+    of.push_back(a);
+    return of;
+  }
+  Regression with(SharedAngle a) const { return regress(left_, axes_with(a), {}, true); }
+  void open(SharedAngle a) { open({a, 0, {}}, with(a)); }
+  void open(Scaled a, Regression there) {
+    luck = std::min(luck, luck_of_scales(now_, there));
+    const double scales = static_cast<double>(there.scales) - static_cast<double>(now_.scales);
+    a.square += std::max(0.0, now_.left - there.left * (1 + scales / left_.samples));
+    all.push_back(std::move(a));
+    now_ = std::move(there);
+  }
+  bool open_best(std::initializer_list<SharedAngle> among) {
+    std::optional<SharedAngle> best;
+    Regression of_best;
+    double least = chance;
+    for (const SharedAngle a : among) {
+      if (is_open(a) || !has_room(left_, a)) continue;
+      Regression there = with(a);
+      const double p = luck_of_scales(now_, there);
+      if (p > least || (p == least && best && there.left >= of_best.left)) continue;
+      if (a != SharedAngle::incident && are_smooth(left_, axes_with(a))) continue;
+      least = p, best = a, of_best = std::move(there);
+    }
+    if (best) open({*best, 0, {}}, std::move(of_best));
+    return best.has_value();
+  }
+  void refine(SharedAngle a, std::initializer_list<SharedAngle> coarser) {
+    const auto same = [&](SharedAngle x) {
+      return number_of_angles(left_, x) == number_of_angles(left_, a);
+    };
+    if (!has_room(left_, a) || std::ranges::any_of(coarser, same)) return;
+    Scaled finer{a, 0, {}};
+    std::vector<SharedAngle> of;
+    for (const auto& s : all)
+      if (std::ranges::find(coarser, s.of) == coarser.end())
+        of.push_back(s.of);
+      else
+        finer.coarser.push_back(s.of), finer.square += s.square;
+    of.push_back(a);
+    Regression there = regress(left_, of, {}, true);
+    if (luck_of_scales(now_, there) > chance || are_smooth(left_, of)) return;
+    std::erase_if(
+        all, [&](const Scaled& s) { return std::ranges::find(coarser, s.of) != coarser.end(); });
+    open(std::move(finer), std::move(there));
+  }
+
+  const Left left_;
+  Regression now_;
+};
+
 /// Regressions that decide, the first of which is of single values where there is one.
 struct Tests {
-  std::vector<std::pair<Errors, Regression>> all;
+  struct One {
+    Regression regression;
+    bool clustered;
+  };
+  std::vector<One> all;
+  std::vector<Scales::Scaled> scaled;
   double p_of_scales = 1, of_scales = 0;  ///< probability by chance, and their mean square
 };
 Tests test(const Left& left, bool measured, bool by_angle) {
   Tests t;
-  const auto add = [&](Errors e) { t.all.emplace_back(e, regress(left, e)); };
-  if (!measured) return add(Errors::none), t;
-  Regression open = regress(left, Errors::scale);
-  const bool enough = enough_angles(left.angles);
-  if (open.scales > 0) {
-    Regression alone = regress(left, Errors::none);
-    constexpr double scatters = 0.05;
-    t.p_of_scales = alone.rounded ? 1 : luck_of_scales(alone, open);
-    t.of_scales =
-        mean_square(left) - open.left * (1 + static_cast<double>(open.scales) / left.samples);
-    if (alone.rounded || (!by_angle && t.p_of_scales > scatters)) {
-      t.all.emplace_back(Errors::none, std::move(alone));
-      return t;
+  const auto add = [&](const std::vector<SharedAngle>& gains,
+                       std::optional<SharedAngle> clustered) {
+    t.all.push_back({regress(left, gains, clustered), clustered.has_value()});
+  };
+  if (!measured) return add({}, {}), t;
+  const auto incident = number_of_angles(left, SharedAngle::incident);
+  const bool has_angles =
+      number_of_angles(left, SharedAngle::outgoing) > 0;  // else samples are means over several
+  std::vector<SharedAngle> gains;
+  if (has_angles) {
+    Scales found(left, by_angle);
+    gains = found.axes();
+    t.scaled = std::move(found.all), t.p_of_scales = found.luck;
+    for (const auto& s : t.scaled) t.of_scales += s.square;
+  }
+  if (!t.scaled.empty() || (has_angles && has_room(left, SharedAngle::incident))) {
+    add(gains, {});
+    for (const auto& s : t.scaled) {
+      auto others = gains;
+      std::erase(others, s.of);
+      others.insert(others.end(), s.coarser.begin(), s.coarser.end());
+      if (enough_angles(number_of_angles(left, s.of))) add(others, s.of);
     }
-    t.all.emplace_back(Errors::scale, std::move(open));
-    if (enough) add(Errors::any);
   } else {
-    add(enough && (by_angle || 2 * static_cast<double>(left.angles) < left.directions)
-            ? Errors::any
-            : Errors::none);
+    const bool shared = enough_angles(incident) &&
+                        (by_angle || 2 * static_cast<double>(incident) < left.directions);
+    add({}, shared ? std::optional(SharedAngle::incident) : std::nullopt);
   }
   return t;
+}
+
+std::vector<LackOfFit::SharedGains> gains_of(const Left& left,
+                                             const Problem& p,
+                                             const Tests& tests) {
+  std::vector<LackOfFit::SharedGains> all;
+  for (const auto& [a, square, coarser] : tests.scaled) {
+    if (a == SharedAngle::incident) continue;
+    const auto angles = static_cast<double>(number_of_angles(left, a));
+    const double gain = std::sqrt(square * angles / (angles - 1));
+    auto& of = all.emplace_back();
+    of.of = shared_angle_names[static_cast<std::size_t>(a)];
+    of.freedom = angles - 1;
+    of.std_error.resize(p.free.size());
+    const auto moved = moved_by_gains(left, a);
+    for (std::size_t u = 0; u < moved.size(); ++u)
+      of.std_error[p.free.index(left.slots[u])] = gain * moved[u];
+  }
+  return all;
 }
 
 }  // namespace
@@ -113,19 +239,24 @@ LackOfFit lack_of_fit(
   bool by_logarithms = s.metric() == Metric::log;
   Left left = left_over(s, p, f, facts);
   if (!s.table().truth) found.odd_angle = odd_angle(left, s);
-  if (!by_logarithms && p.free.size() > 0 && !only_rounded(left.values) && find_variances(left) &&
+  std::vector<double> residuals;
+  for (const auto& v : left.values) residuals.push_back(v.r);
+  const bool relative = find_variances(left);
+  if (!by_logarithms && p.free.size() > 0 && !only_rounded(left.values, residuals) && relative &&
       100 * left.without_logarithm <= left.values.size()) {
     // Whose squares weigh such noise unequally the highlight alone determines the parameters, whose
     // errors move faint values by far more than these are wrong: and none of that is a misfit.
     const Sampling logs = s.by(Metric::log, p.offset);
     left = left_over(logs, p, compared_by(logs, p, scan_samples, f), facts);
+    find_variances(left);
     by_logarithms = true;
   }
   const bool by_angle = p.options.intervals == Intervals::by_angle;
   const Tests tests =
       test(left, by_angle || (!s.table().truth && p.options.intervals != Intervals::independent),
            by_angle);
-  const Regression& first = tests.all[0].second;
+  found.gains = gains_of(left, p, tests);
+  const Regression& first = tests.all[0].regression;
   if (first.rounded && tests.all.size() == 1) {
     m.note = "what is left is no more than the values' own rounding";
     return found;
@@ -135,13 +266,12 @@ LackOfFit lack_of_fit(
   const double more = std::max(1.0, samples_used / left.samples);
   double excess = 0;
   const Regression* likeliest = nullptr;
-  for (const auto& [errors, r] : tests.all) {
+  for (const auto& [r, clustered] : tests.all) {
     if (!r.tested) continue;
     if (!likeliest || r.p < likeliest->p) likeliest = &r;
     m.size = m.tested ? std::max(m.size, r.size) : r.size;
     m.tested = true;
-    if (r.noise > 0)
-      excess = std::max(excess, r.excess / r.noise * (errors == Errors::any ? 1 : more));
+    if (r.noise > 0) excess = std::max(excess, r.excess / r.noise * (clustered ? 1 : more));
   }
   if (m.tested) {
     m.p = std::min(1.0, likeliest->p * static_cast<double>(tests.all.size()));
@@ -161,13 +291,20 @@ LackOfFit lack_of_fit(
     excess = std::max(excess, tests.of_scales / mean_square(left));
   }
   if (!m.told) {
-    const bool few_angles = tests.all[0].first == Errors::scale && !enough_angles(left.angles) &&
-                            tests.of_scales > worth_telling * worth_telling;
+    // What models miss follows no other angle by itself than that of the light, whose cosine they
+    // all know.
+    const bool few_angles =
+        std::ranges::any_of(tests.scaled,
+                            [&](const auto& s) {
+                              return s.of == SharedAngle::incident &&
+                                     !enough_angles(number_of_angles(left, s.of));
+                            }) &&
+        tests.of_scales > worth_telling * worth_telling;
     if (!m.tested || first.limited || few_angles) {
       m.tested = false;
       m.too_few = true;
-      m.note = few_angles || (!first.tested && tests.all[0].first == Errors::any)
-                   ? "the incident angles, whose values share errors, are too few to tell"
+      m.note = few_angles || (!first.tested && tests.all[0].clustered)
+                   ? "the angles whose values share errors are too few to tell"
                    : "the values are too few to tell";
     }
     return found;
@@ -199,10 +336,26 @@ double widened(double error, double widening, double seen_against) {
                                (std::isnan(seen_against) ? error : seen_against));
 }
 
+double with_gains(const LackOfFit& l, std::size_t i, double error, double& freedom) {
+  double variance = error * error, by_freedom = variance * variance / freedom;
+  for (const auto& gains : l.gains) {
+    const double own = gains.std_error[i] * gains.std_error[i];
+    variance += own;
+    by_freedom += own * own / gains.freedom;
+  }
+  if (variance > 0) freedom = variance * variance / by_freedom;
+  return std::sqrt(variance);
+}
+
 void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_against) {
   for (std::size_t i = 0; i < u.std_error.size(); ++i) {
     double& e = u.std_error[i];
-    const double wider = widened(e, l.widening, seen_against[i]);
+    if (std::isnan(e)) continue;
+    double wider = widened(e, l.widening, seen_against[i]);
+    if (!l.gains.empty()) {
+      wider = with_gains(l, i, wider, u.freedom[i]);
+      u.t[i] = students_t_quantile(0.975, std::max(1.0, u.freedom[i]));
+    }
     u.variance[i] *= wider * wider / (e * e);
     e = wider;
   }

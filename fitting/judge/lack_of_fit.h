@@ -26,6 +26,13 @@ struct LackOfFit {
   Misfit misfit;
   double widening = 1;  ///< of the parameters' intervals, so that they include it
   std::optional<OddAngle> odd_angle = {};
+  /// Gains that the values of an angle share, of angles other than the incident one, whose clusters know of theirs.
+  struct SharedGains {
+    std::string of;                 ///< as "outgoing angle"
+    double freedom;                 ///< number of angles less 1
+    std::vector<double> std_error;  ///< what they make of each free parameter's
+  };
+  std::vector<SharedGains> gains = {};
 };
 
 /// Residuals of the right model follow no angle, whatever the noise.  So these are regressed on smooth
@@ -35,9 +42,10 @@ struct LackOfFit {
 ///
 /// Of many samples only that their errors are independent is assumed [Hotelling's T² of the scores, as
 /// the intervals' sandwich], of few that they are of one size in f or in proportion to it [an F test].
-/// Where the incident angles of a measured table scatter more than the values within them, the scale of each
-/// angle is left open, and from 8 angles on their sums are judged, too.  A robust fit then clips beside
-/// that scale.  Where noise is in proportion to f, and the metric is another than log, a refit by
+/// Where the angles of a measured table scatter more than the values within them, the scale of each angle is left
+/// open: of incident angles, outgoing angles, azimuths or places of light and detector, and of two of these at most.
+/// From 8 angles on their sums are judged, too.  A robust fit then clips beside those scales, and what they do to the
+/// parameters is part of the intervals.  Where noise is in proportion to f, and the metric is another than log, a refit by
 /// logarithms is judged: size and cell are that refit's.
 ///
 /// A misfit is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.  What is left
@@ -49,12 +57,16 @@ struct LackOfFit {
 LackOfFit lack_of_fit(
     const Sampling&, const Problem&, const Fitted&, double samples_used, TableFacts&);
 
+/// Adds to the error of a parameter what shared gains make of it.
+/// \param i        number of the parameter among the free ones
+/// \param freedom  degrees of freedom of the error; becomes those of the sum [Welch, Satterthwaite]
+double with_gains(const LackOfFit&, std::size_t i, double error, double& freedom);
 /// Error as wide as a misfit asks.
 /// \param widening      LackOfFit's
 /// \param seen_against  error of the values that it was judged against: where the intervals are those of a
 ///                      few clusters they know of it already, and as much is added as it does to this; or NaN
 double widened(double error, double widening, double seen_against);
-/// Makes the intervals as wide as that.
+/// Makes the intervals as wide as a misfit and shared gains ask.
 void widen(Uncertainty&, const LackOfFit&, std::span<const double> seen_against);
 
 }  // namespace gonio

@@ -68,6 +68,52 @@ std::size_t cell_of(const Angles<double>& a) {
          place(columns * theta_d / 90, columns);
 }
 
+/// Numbers of a sample's angles along each axis, as they are met.
+class AngleNumbers {
+ public:
+  explicit AngleNumbers(const Sampling& s) : incident_(s), list_(s.table().list()) {
+    if (const Grid* g = s.table().grid(); g && g->kind == Grid::Kind::in_out) grid_ = g;
+  }
+  std::array<std::size_t, shared_angles> operator()(std::size_t sample, double nol) {
+    const auto key = incident_(sample, nol);
+    std::array<Key, shared_angles> keys;
+    keys.fill({0, static_cast<long>(key)});
+    if (grid_) {
+      const auto at = grid_->unravel(sample);
+      const auto out = static_cast<long>(at[1]), phi = static_cast<long>(at[2]);
+      keys = {keys[0], keys[0], Key{0, out}, Key{0, phi}, Key{phi, out}};
+    } else if (list_) {
+      const auto place = [&](const auto& theta_deg, const auto& phi_deg) {
+        const long theta = thousandths(theta_deg[sample]), turn = 360'000;
+        const long phi = (thousandths(phi_deg[sample]) % turn + turn) % turn;
+        return Key{theta == 0 ? 0 : phi, theta};  // at the normal an azimuth means nothing
+      };
+      const Key light = place(list_->theta_i_deg, list_->phi_i_deg),
+                detector = place(list_->theta_o_deg, list_->phi_o_deg);
+      keys = {keys[0], light, Key{0, detector[1]}, Key{0, detector[0]}, detector};
+    }
+    std::array<std::size_t, shared_angles> all{};
+    for (std::size_t a = 0; a < shared_angles; ++a)
+      all[a] = numbers_[a].emplace(keys[a], numbers_[a].size()).first->second;
+    return all;
+  }
+  void give(Left& to) const {
+    for (std::size_t a = 0; a < (grid_ || list_ ? shared_angles : 1); ++a) {
+      to.angles[a] = numbers_[a].size();
+      to.places[a].resize(numbers_[a].size());
+      for (const auto& [key, number] : numbers_[a]) to.places[a][number] = key;
+    }
+  }
+
+ private:
+  using Key = std::array<long, 2>;
+  static long thousandths(double deg) { return std::lround(deg * 1000); }
+  IncidentKeys incident_;
+  const DirectionList* list_;
+  const Grid* grid_ = nullptr;
+  std::array<std::map<Key, std::size_t>, shared_angles> numbers_;
+};
+
 }  // namespace
 
 double row_edge(std::size_t k) {
@@ -98,10 +144,10 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
       of.push_back(column);
     }
   }
-  all.count = numbers.size();
+  all.slots.resize(numbers.size());
+  for (const auto& [slot, number] : numbers) all.slots[number] = slot;
 
-  const IncidentKeys keys(s);
-  std::map<std::size_t, std::size_t> angles;  // numbers of those met
+  AngleNumbers numbers_of(s);
   const auto offset = s.link_offset();
   const FileRounding rounding = rounding_of(s.table());
   const std::size_t members = s.groups().widest();
@@ -136,10 +182,9 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
             if (unit == no_unit) {
               unit = all.units.size();
               const Angles<double> a{x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]};
-              const std::size_t key = keys(in.sample(m)[i], in.nol(m)[i]);
-              all.units.push_back({functions(a), cell_of(a),
-                                   angles.emplace(key, angles.size()).first->second,
-                                   s.count_of(in.sample(m)[i])});
+              const std::size_t sample = in.sample(m)[i];
+              all.units.push_back(
+                  {functions(a), cell_of(a), numbers_of(sample, in.nol(m)[i]), s.count_of(sample)});
               all.directions += all.units.back().count;
             }
             auto& v = all.values.emplace_back();
@@ -169,7 +214,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
     }
   }
   find_noise(facts, stride, all.values);
-  all.angles = angles.size();
+  numbers_of.give(all);
   all.robust = p.options.robust;
   all.stated = s.in_uncertainties();
   return all;
@@ -244,12 +289,27 @@ std::optional<MisfitCell> worst_cell(const Left& left) {
   return worst;
 }
 
-bool only_rounded(const std::vector<Value>& values) {
+Left thinned(const Left& all, std::size_t values) {
+  const std::size_t step = (all.values.size() + values - 1) / values;
+  if (step <= 1) return all;
+  Left some = all;
+  some.values.clear();
+  some.samples = some.directions = 0;
+  for (const auto& v : all.values)
+    if (v.unit % step == 0) {
+      some.values.push_back(v);
+      some.samples += all.units[v.unit].count;
+    }
+  for (std::size_t k = 0; k < all.units.size(); k += step) some.directions += all.units[k].count;
+  return some;
+}
+
+bool only_rounded(const std::vector<Value>& values, std::span<const double> r) {
   constexpr double most = 4;  // squares, of those of rounding
   constexpr double clipped = 100;
   double squares = 0, rounded = 0, own = 0;
-  for (const auto& v : values) {
-    const double square = v.r * v.r, by_rounding = v.rounding * v.rounding;
+  for (std::size_t i = 0; i < values.size(); ++i) {
+    const double square = r[i] * r[i], by_rounding = values[i].rounding * values[i].rounding;
     squares += square;
     rounded += by_rounding;
     own += square > clipped * by_rounding ? clipped : square > 0 ? square / by_rounding : 0;

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -48,13 +49,21 @@ struct Value {
   double variance = 0;  ///< of the residual, up to a factor
   double noise = std::numeric_limits<double>::quiet_NaN();  ///< of ln f, as its neighbours show it
   std::array<double, most_columns> j{};  ///< derivatives by the unknowns of its channel
-  std::size_t gain = 0;  ///< unknown of its incident angle's own scale, where there are such
 };
-/// One sample, or one incident angle of one cell: its values share their errors.
+
+/// Angles under which an instrument may scale all values alike: θ_i, the place of the light, θ_o, φ_o, and the
+/// place of the detector.
+enum class SharedAngle { incident, light, outgoing, azimuth, detector };
+inline constexpr std::size_t shared_angles = 5;
+inline constexpr std::array<std::string_view, shared_angles> shared_angle_names{
+    "incident angle", "direction of the light", "outgoing angle", "azimuth", "detector position"};
+
+/// One sample: its values share their errors.
 struct Unit {
   std::array<double, fine> functions;
-  std::size_t cell, angle;
-  double count;  ///< samples that it counts as
+  std::size_t cell;
+  std::array<std::size_t, shared_angles> angle;  ///< its number along each axis
+  double count;                                  ///< samples that it counts as
 };
 
 /// Residuals of a table, and the units that share their errors.
@@ -62,8 +71,11 @@ struct Left {
   std::vector<Value> values;
   std::vector<Unit> units;
   std::vector<std::vector<std::size_t>> unknowns;  ///< of each channel looked at
-  std::size_t count = 0;                           ///< of the unknowns
-  std::size_t angles = 0;
+  std::vector<std::size_t> slots;                  ///< of the unknowns
+  /// Numbers of angles along each axis; 0 where the layout has no such axis.
+  std::array<std::size_t, shared_angles> angles{};
+  /// Place of each angle, which neighbours share but for the last number.
+  std::array<std::vector<std::array<long, 2>>, shared_angles> places;
   std::size_t without_logarithm = 0;  ///< values of 0 where f is not
   double samples = 0;                 ///< that the values count as
   double directions = 0;              ///< that the units count as
@@ -84,6 +96,10 @@ std::optional<MisfitCell> worst_cell(const Left&);
 
 /// True where little else is left than rounding: of all values together, and of each by its own, lest one
 /// whose digits say little hides what others miss by far.
-bool only_rounded(const std::vector<Value>&);
+/// \param r  their residuals
+bool only_rounded(const std::vector<Value>&, std::span<const double> r);
+
+/// About so many values, units evenly spread.
+Left thinned(const Left&, std::size_t values);
 
 }  // namespace gonio::misfit

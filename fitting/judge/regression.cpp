@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "base/quantile.h"
+#include "fitting/judge/gains.h"
 #include "fitting/solve/matrix.h"
 #include "number/distributions.h"
 
@@ -13,18 +14,6 @@ namespace gonio::misfit {
 namespace {
 
 constexpr double many = 50;  ///< samples for each function
-constexpr std::size_t most_gains = 128;
-
-/// Unknowns of their own for the scale of each channel under each incident angle, where there is room.
-std::size_t add_gains(Left& left) {
-  const std::size_t channels = left.unknowns.size(), gains = left.angles * channels;
-  if (left.angles < 2 || 4 * static_cast<double>(left.angles) > left.directions ||
-      left.count + gains > most_gains)
-    return 0;
-  for (auto& v : left.values) v.gain = left.count + left.units[v.unit].angle * channels + v.channel;
-  left.count += gains;
-  return gains;
-}
 
 /// Pseudoinverse of a positive semidefinite matrix, and its rank.
 struct Inverse {
@@ -55,95 +44,162 @@ double luck_of_scores(double w, double of, double units) {
   return luck(w / of / (rest / (units - of)), of, units - of);
 }
 
-/// Sums of scores over units, or over incident angles.
-class Scores {
+/// Values that share their errors: those of one unit, or of one angle.
+class Clusters {
  public:
-  Scores(std::size_t units, std::size_t width)
-      : width_(width), sums_(units * width), counts_(units) {}
-  /// \param count  samples that the unit counts as: each has that part of its score
-  double* of(std::size_t unit, double count) {
-    counts_[unit] = count;
-    return sums_.data() + unit * width_;
+  Clusters(const Left& left, std::optional<SharedAngle> axis) : left_(left), axis_(axis) {
+    counts_.resize(axis ? left.angles[static_cast<std::size_t>(*axis)] : left.units.size());
+    for (const auto& v : left.values) counts_[of(v)] = axis ? 1 : left.units[v.unit].count;
   }
+  std::size_t of(const Value& v) const {
+    return axis_ ? left_.units[v.unit].angle[static_cast<std::size_t>(*axis_)] : v.unit;
+  }
+  std::size_t size() const { return counts_.size(); }
+  /// Samples that one counts as: each has that part of its score; 0 of those without values.
+  double count(std::size_t k) const { return counts_[k]; }
   double count() const { return std::accumulate(counts_.begin(), counts_.end(), 0.0); }
-  Eigen::Map<const VectorXd> at(std::size_t k) const {
-    return Eigen::Map<const VectorXd>(sums_.data() + k * width_, index(width_));
-  }
-  VectorXd sum() const {
-    VectorXd u = VectorXd::Zero(index(width_));
-    for (std::size_t k = 0; k < counts_.size(); ++k) u += at(k);
-    return u;
-  }
-  Columns squares() const {
-    Columns m = Columns::Zero(index(width_), index(width_));
-    for (std::size_t k = 0; k < counts_.size(); ++k)
-      if (counts_[k] > 0) m.selfadjointView<Eigen::Lower>().rankUpdate(at(k), 1 / counts_[k]);
-    return m.selfadjointView<Eigen::Lower>();
-  }
-
- private:
-  std::size_t width_;
-  std::vector<double> sums_;
-  std::vector<double> counts_;  ///< 0 of those without a score
-};
-
-/// Residuals projected: what is left when the unknowns are moved to where these scores are 0, and the
-/// functions without what unknowns could take up.
-class Projected {
- public:
-  Projected(const Left& left, std::size_t width, bool gains)
-      : left_(left), width_(width), gains_(gains) {
-    const auto n = index(left.count), q = index(width);
-    Columns a = Columns::Zero(n, n), c = Columns::Zero(n, q);
-    VectorXd g = VectorXd::Zero(n);
-    for (const auto& v : left.values) {
-      const auto& functions = left.units[v.unit].functions;
-      const double weighted = v.active * v.change / v.variance;
-      each(v, [&](Eigen::Index i, double j) {
-        g[i] += j * v.r;
-        if (v.active == 0) return;
-        for (Eigen::Index k = 0; k < q; ++k)
-          c(i, k) += j * weighted * functions[static_cast<std::size_t>(k)];
-        each(v, [&](Eigen::Index l, double other) { a(i, l) += v.active * j * other; });
-      });
-    }
-    Inverse solved(a);
-    rank_ = solved.rank;
-    inverse_ = std::move(solved.inverse);
-    functions_ = product(inverse_, c).transpose();
-    step_ = inverse_ * g;
-  }
-  std::size_t rank() const { return rank_; }
-  const Columns& inverse() const { return inverse_; }
-  /// Residual that the unknowns take up.
-  double taken_up(const Value& v) const {
-    double sum = 0;
-    each(v, [&](Eigen::Index i, double j) { sum += j * step_[i]; });
-    return sum;
-  }
-  double residual(const Value& v) const { return v.active > 0 ? v.r - taken_up(v) : v.r; }
-  void functions(const Value& v, double* out) const {
-    const auto& own = left_.units[v.unit].functions;
-    const double weighted = v.change / v.variance;
-    for (std::size_t k = 0; k < width_; ++k) out[k] = weighted * own[k];
-    each(v, [&](Eigen::Index i, double j) {
-      for (std::size_t k = 0; k < width_; ++k) out[k] -= j * functions_(index(k), i);
-    });
-  }
-
-  /// Unknowns that a value knows, and its derivatives by them.
-  template <class Visit>
-  void each(const Value& v, Visit&& visit) const {
-    const auto& unknowns = left_.unknowns[v.channel];
-    for (std::size_t k = 0; k < unknowns.size(); ++k) visit(index(unknowns[k]), v.j[k]);
-    if (gains_) visit(index(v.gain), v.change);
-  }
 
  private:
   const Left& left_;
-  std::size_t width_, rank_ = 0;
-  bool gains_;
-  Columns inverse_, functions_;
+  std::optional<SharedAngle> axis_;
+  std::vector<double> counts_;
+};
+
+/// Residuals projected: what is left when the unknowns and the gains are moved to where these scores are 0, and
+/// columns of one number per value without what unknowns and gains could take up.
+class Projected {
+ public:
+  Projected(const Left& left, const std::vector<SharedAngle>& axes)
+      : left_(left), gains_(left, axes) {
+    const auto n = index(left.slots.size());
+    find_derivatives();
+    Columns a = Columns::Zero(n, n);
+    VectorXd g = VectorXd::Zero(n);
+    for (std::size_t i = 0; i < left.values.size(); ++i) {
+      const auto& v = left.values[i];
+      each(i, [&](Eigen::Index k, double j) {
+        g[k] += j * v.r;
+        if (v.active > 0)
+          each(i, [&](Eigen::Index l, double other) { a(k, l) += v.active * j * other; });
+      });
+    }
+    Inverse solved(a);
+    rank_ = solved.rank + gains_.count();
+    inverse_ = std::move(solved.inverse);
+    taken_up_.resize(left.values.size());
+    if (!gains_.empty()) {
+      for (std::size_t i = 0; i < left.values.size(); ++i) taken_up_[i] = left.values[i].r;
+      taken_up_ = gains_.taken_up(taken_up_);
+    }
+    step_ = inverse_ * g;
+    for (std::size_t i = 0; i < left.values.size(); ++i)
+      each(i, [&](Eigen::Index k, double j) { taken_up_[i] += j * step_[k]; });
+  }
+  std::size_t rank() const { return rank_; }
+  /// Residual that unknowns and gains take up.
+  double taken_up(std::size_t i) const { return taken_up_[i]; }
+  double residual(std::size_t i) const {
+    const auto& v = left_.values[i];
+    return v.active > 0 ? v.r - taken_up_[i] : v.r;
+  }
+  /// What unknowns and gains could take up of a column: moves of the unknowns, and of each value what gains do; empty without.
+  struct Part {
+    VectorXd step;
+    std::vector<double> of_gains;
+  };
+  Part part_of(const std::vector<double>& column) const {
+    VectorXd products = VectorXd::Zero(inverse_.rows());
+    std::vector<double> scores(gains_.empty() ? 0 : column.size());
+    for (std::size_t i = 0; i < column.size(); ++i) {
+      const double score = left_.values[i].active * column[i];
+      if (score == 0) continue;
+      each(i, [&](Eigen::Index k, double j) { products[k] += j * score; });
+      if (!gains_.empty()) scores[i] = score;
+    }
+    return {inverse_ * products, gains_.empty() ? scores : gains_.taken_up(scores)};
+  }
+  /// What a part is of one value.
+  double taken(const Part& part, std::size_t i) const {
+    double sum = part.of_gains.empty() ? 0 : part.of_gains[i];
+    each(i, [&](Eigen::Index k, double j) { sum += j * part.step[k]; });
+    return sum;
+  }
+  /// Takes that out.
+  void project(std::vector<double>& column) const {
+    const Part part = part_of(column);
+    for (std::size_t i = 0; i < column.size(); ++i) column[i] -= taken(part, i);
+  }
+  /// Σ j r of each cluster.
+  Columns moves(const std::vector<double>& r, const Clusters& clusters) const {
+    Columns all = Columns::Zero(inverse_.rows(), index(clusters.size()));
+    for (std::size_t i = 0; i < r.size(); ++i)
+      each(i, [&, of = index(clusters.of(left_.values[i]))](Eigen::Index k, double j) {
+        all(k, of) += j * r[i];
+      });
+    return all;
+  }
+  /// Logarithms of the factors, see Gains::taken_up().
+  std::vector<std::vector<double>> factors() const {
+    std::vector<double> scores;
+    for (std::size_t i = 0; i < left_.values.size(); ++i) {
+      const auto& v = left_.values[i];
+      const auto& unknowns = left_.unknowns[v.channel];
+      scores.push_back(v.r);
+      for (std::size_t k = 0; k < unknowns.size(); ++k)
+        scores.back() -= v.active * v.j[k] * step_[index(unknowns[k])];
+    }
+    std::vector<std::vector<double>> all;
+    gains_.taken_up(scores, &all);
+    return all;
+  }
+  /// Changes of the unknowns by one value's residual.
+  VectorXd influence(std::size_t i) const {
+    VectorXd j = VectorXd::Zero(inverse_.rows());
+    each(i, [&](Eigen::Index k, double x) { j[k] = x; });
+    return inverse_ * j;
+  }
+
+ private:
+  /// Unknowns that a value knows, and its derivatives by them without what gains could take up.
+  template <class Visit>
+  void each(std::size_t i, Visit&& visit) const {
+    const auto& unknowns = left_.unknowns[left_.values[i].channel];
+    for (std::size_t k = 0; k < unknowns.size(); ++k) visit(index(unknowns[k]), j_[k][i]);
+  }
+  void find_derivatives() {
+    std::size_t most = 0;
+    for (const auto& of : left_.unknowns) most = std::max(most, of.size());
+    std::vector<double> before(left_.slots.size()), after(before), scores(left_.values.size());
+    for (std::size_t k = 0; k < most; ++k) {
+      auto& column = j_.emplace_back();
+      for (const auto& v : left_.values) column.push_back(v.j[k]);
+      if (gains_.empty()) continue;
+      for (std::size_t i = 0; i < column.size(); ++i)
+        scores[i] = left_.values[i].active * column[i];
+      const auto taken = gains_.taken_up(scores);
+      for (std::size_t i = 0; i < column.size(); ++i) {
+        const auto& v = left_.values[i];
+        const auto& unknowns = left_.unknowns[v.channel];
+        if (k >= unknowns.size()) continue;
+        before[unknowns[k]] += v.active * column[i] * column[i];
+        column[i] -= taken[i];
+        after[unknowns[k]] += v.active * column[i] * column[i];
+      }
+    }
+    constexpr double rounding = 1e-12;  // of squares: such an unknown is one of the gains
+    for (std::size_t i = 0; i < left_.values.size(); ++i) {
+      const auto& unknowns = left_.unknowns[left_.values[i].channel];
+      for (std::size_t k = 0; k < unknowns.size(); ++k)
+        if (after[unknowns[k]] < rounding * before[unknowns[k]]) j_[k][i] = 0;
+    }
+  }
+
+  const Left& left_;
+  Gains gains_;
+  std::size_t rank_ = 0;
+  Columns inverse_;
+  std::vector<std::vector<double>> j_;  ///< [unknown of a channel][value]
+  std::vector<double> taken_up_;
   VectorXd step_;
 };
 
@@ -151,61 +207,52 @@ class Projected {
 void judge_cells(const Left& left,
                  const Projected& projected,
                  const std::vector<double>& r,
-                 bool shared,
+                 const Clusters& clusters,
                  Regression& out) {
-  constexpr std::size_t cells = rows * columns;
-  const auto n = index(left.count);
-  struct Cell {
-    double sum = 0, weight = 0, squares = 0;
-    VectorXd with_function, with_change, with_score;  ///< products with the derivatives
-    double scores = 0;
-  };
-  std::array<Cell, cells> all;
-  for (auto& c : all) c.with_function = c.with_change = c.with_score = VectorXd::Zero(n);
-  const std::size_t units = shared ? left.angles : left.units.size();
-  Scores moves(units, left.count);                                              // Σ j r
-  std::vector<std::pair<double, double>> scores(units * (shared ? cells : 1));  // count, score
-  for (std::size_t i = 0; i < left.values.size(); ++i) {
-    const auto& v = left.values[i];
-    const auto& unit = left.units[v.unit];
-    auto& cell = all[unit.cell];
-    const double function = v.change / v.variance;
-    cell.sum += function * r[i];
-    cell.weight += v.active * function * v.change;
-    const std::size_t of = shared ? unit.angle : v.unit;
-    auto& [count, score] = scores[shared ? of * cells + unit.cell : of];
-    count = shared ? 1 : unit.count;
-    score += function * r[i];
-    double* const move = moves.of(of, count);
-    projected.each(v, [&](Eigen::Index k, double j) {
-      move[k] += j * r[i];
-      cell.with_function[k] += v.active * function * j;
-      cell.with_change[k] += v.active * v.change * j;
-    });
-  }
-  for (std::size_t k = 0; k < scores.size(); ++k) {
-    const auto& [count, score] = scores[k];
-    if (count == 0) continue;
-    const std::size_t of = shared ? k / cells : k;
-    auto& cell = all[shared ? k % cells : left.units[k].cell];
-    cell.squares += score * score / count;
-    cell.with_score += score / count * moves.at(of);
-    cell.scores += count;
-  }
-  const Columns move_squares = moves.squares();
   constexpr double few = 3, enough = 20;
+  std::vector<std::vector<std::size_t>> cells(rows * columns);  // their values
+  for (std::size_t i = 0; i < left.values.size(); ++i)
+    cells[left.units[left.values[i].unit].cell].push_back(i);
+  const Columns moves = projected.moves(r, clusters);
   double tested = 0, least = 1, squares = 0, weights = 0;
-  for (std::size_t k = 0; k < cells; ++k) {
-    const Cell& c = all[k];
-    const VectorXd taken_up = projected.inverse() * c.with_function;
-    const double weight = c.weight - taken_up.dot(c.with_change);
-    const double noise =
-        c.squares - 2 * taken_up.dot(c.with_score) + taken_up.dot(move_squares * taken_up);
-    if (c.scores < few || !(weight > 0.05 * c.weight) || !(noise > 1e-9 * c.squares)) continue;
-    const double square = c.sum * c.sum;
-    if (c.scores >= enough) {
+  std::vector<double> column(left.values.size());
+  for (const auto& own : cells) {
+    VectorXd score = VectorXd::Zero(index(clusters.size()));
+    std::vector<bool> met(clusters.size());
+    double whole = 0, scores = 0, before = 0;
+    for (const std::size_t i : own) {
+      const auto& v = left.values[i];
+      const std::size_t of = clusters.of(v);
+      column[i] = v.change / v.variance;
+      whole += v.active * column[i] * v.change;
+      score[index(of)] += column[i] * r[i];
+      if (!met[of]) scores += clusters.count(of);
+      met[of] = true;
+    }
+    if (scores < few) {
+      for (const std::size_t i : own) column[i] = 0;
+      continue;
+    }
+    for (std::size_t k = 0; k < met.size(); ++k)
+      if (met[k]) before += score[index(k)] * score[index(k)] / clusters.count(k);
+    const auto part = projected.part_of(column);
+    double weight = 0, noise = 0;
+    for (const std::size_t i : own) {
+      const auto& v = left.values[i];
+      weight += v.active * (column[i] - projected.taken(part, i)) * v.change;
+      column[i] = 0;
+    }
+    score -= transposed_times(moves, part.step);
+    for (std::size_t i = 0; i < part.of_gains.size(); ++i)
+      score[index(clusters.of(left.values[i]))] -= part.of_gains[i] * r[i];
+    for (std::size_t k = 0; k < met.size(); ++k)
+      if (clusters.count(k) > 0) noise += score[index(k)] * score[index(k)] / clusters.count(k);
+    const double sum = score.sum();
+    if (!(weight > 0.05 * whole) || !(noise > 1e-9 * before)) continue;
+    const double square = sum * sum;
+    if (scores >= enough) {
       ++tested;
-      least = std::min(least, luck_of_scores(square / noise, 1, c.scores));
+      least = std::min(least, luck_of_scores(square / noise, 1, scores));
     }
     squares += std::max(0.0, (square - noise) / weight);
     weights += weight;
@@ -245,21 +292,44 @@ void compare_with_noise(const Left& left, const std::vector<double>& r, Regressi
 
 /// Takes each angle's own scale out of what a robust fit leaves, which then clips other values: else one
 /// whose values are clipped all alike could take nothing up.
-void settle(Left& left) {
-  constexpr int rounds = 20;
+void settle(Left& left, const std::vector<SharedAngle>& gains) {
+  constexpr double settled = 0.01;
+  int rounds = 20;
+  double before = HUGE_VAL;
   for (int round = 0; round <= rounds; ++round) {
     std::vector<double> sizes;
     for (const auto& v : left.values) sizes.push_back(std::abs(v.whole));
     const double huber = huber_of(std::move(sizes));
+    if (std::abs(huber - std::exchange(before, huber)) < settled * huber) rounds = round;
     for (auto& v : left.values) {
       v.r = std::clamp(v.whole, -huber, huber);
       const double part = huber / std::max(std::abs(v.whole), huber);
       v.active = round < rounds ? part : std::floor(part);
     }
     if (round == rounds) break;
-    const Projected projected(left, 0, true);
-    for (auto& v : left.values) v.whole -= projected.taken_up(v);
+    const Projected projected(left, gains);
+    for (std::size_t i = 0; i < left.values.size(); ++i)
+      left.values[i].whole -= projected.taken_up(i);
   }
+}
+
+/// Residuals of values and units, once unknowns and gains have taken up what they can.
+struct Scatter {
+  double chi = 0;     ///< squares
+  double common = 1;  ///< values that say what one would if their errors were its own
+};
+Scatter scatter_of(const Left& left, const std::vector<double>& r) {
+  Scatter s;
+  std::vector<double> of_unit(left.units.size());
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const auto& v = left.values[i];
+    s.chi += r[i] * r[i] / v.variance;
+    of_unit[v.unit] += r[i] / std::sqrt(v.variance);
+  }
+  double common = 0;  // channels of a sample that share their errors count less
+  for (const double x : of_unit) common += x * x;
+  s.common = std::max(1.0, common / s.chi);
+  return s;
 }
 
 }  // namespace
@@ -271,74 +341,81 @@ double luck_of_scales(const Regression& r, const Regression& open) {
               open.freedom / open.common);
 }
 
-Regression regress(Left left, Errors errors) {
+bool has_room(const Left& left, SharedAngle axis) {
+  const std::size_t angles = left.angles[static_cast<std::size_t>(axis)];
+  return angles >= 2 && 4 * static_cast<double>(angles) <= left.directions;
+}
+
+Regression regress(const Left& found,
+                   const std::vector<SharedAngle>& gains,
+                   std::optional<SharedAngle> clustered,
+                   bool only_scatter) {
   Regression out;
-  const bool shared = errors == Errors::any;
-  find_variances(left);
-  if (errors == Errors::scale) {
-    out.scales = add_gains(left);
-    if (out.scales == 0) return out;
-    if (left.robust) settle(left);
-  }
-  const bool gains = out.scales > 0;
-  const std::size_t units = left.units.size();
+  std::optional<Left> settled;
+  if (!gains.empty() && found.robust) settle(settled.emplace(found), gains);
+  const Left& left = settled ? *settled : found;
   const double n = left.samples;
+  std::vector<double> r(left.values.size());
   double rounded = 0, changes = 0;
   for (const auto& v : left.values) {
     rounded += v.rounding * v.rounding;
     changes += v.change * v.change;
   }
   out.rounding = std::sqrt(rounded / changes);
-  out.rounded = only_rounded(left.values);
+  for (std::size_t i = 0; i < left.values.size(); ++i) r[i] = left.values[i].r;
+  out.rounded = only_rounded(left.values, r);
   if (out.rounded) return out;
 
-  const std::size_t width = left.directions >= 500 ? fine : smooth;
-  const Projected projected(left, width, gains);
-  const auto q = index(width);
-  Scores scores(shared ? left.angles : units, width);
-  std::vector<double> r(left.values.size()), of_unit(units), z(width);
-  Columns noise = Columns::Zero(q, q);  // of the scores, if the variances are right
-  VectorXd length = VectorXd::Zero(q);  // of each function before its projection
-  double chi = 0, weight = 0;
-  for (std::size_t i = 0; i < left.values.size(); ++i) {
-    const auto& v = left.values[i];
-    const auto& unit = left.units[v.unit];
-    r[i] = projected.residual(v);
-    projected.functions(v, z.data());
-    double* const sum = scores.of(shared ? unit.angle : v.unit, shared ? 1 : unit.count);
-    for (std::size_t k = 0; k < width; ++k) sum[k] += z[k] * r[i];
-    const Eigen::Map<const VectorXd> of(z.data(), q);
-    noise.selfadjointView<Eigen::Lower>().rankUpdate(of, v.variance);
-    const double whole = v.change * v.change / v.variance;
-    for (std::size_t k = 0; k < width; ++k)
-      length[index(k)] += whole * unit.functions[k] * unit.functions[k];
-    chi += r[i] * r[i] / v.variance;
-    of_unit[v.unit] += r[i] / std::sqrt(v.variance);
-    weight += v.active * whole;
-  }
-  noise = Columns(noise.selfadjointView<Eigen::Lower>());
-  double common = 0;  // channels of a sample that share their errors count less
-  for (const double x : of_unit) common += x * x;
-  common = std::max(1.0, common / chi);
-  const double freedom = n / common - static_cast<double>(projected.rank());
-  const double independent = scores.count();
-  const double most = shared ? (independent - 2) / 3 : freedom / 4;
+  const Projected projected(left, gains);
+  for (std::size_t i = 0; i < r.size(); ++i) r[i] = projected.residual(i);
+  const auto [chi, common] = scatter_of(left, r);
   out.squares = chi;
   out.freedom = n - static_cast<double>(projected.rank());
   out.common = common;
   for (std::size_t i = 0; i < r.size(); ++i) {
-    auto& v = left.values[i];
-    v.r = r[i];
+    const auto& v = left.values[i];
     if (v.change > 0)
       out.left += r[i] * r[i] / (v.change * v.change) / static_cast<double>(r.size());
   }
+  out.scales = Gains(left, gains).count();
+  if (only_scatter) return out;
+
+  const std::size_t width = left.directions >= 500 ? fine : smooth;
+  const auto q = index(width);
+  const Clusters clusters(left, clustered);
+  std::vector<std::vector<double>> functions(width, std::vector<double>(r.size()));
+  VectorXd length = VectorXd::Zero(q);  // of each function before its projection
+  double weight = 0;
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    const auto& v = left.values[i];
+    const auto& own = left.units[v.unit].functions;
+    const double whole = v.change * v.change / v.variance;
+    for (std::size_t k = 0; k < width; ++k) {
+      functions[k][i] = v.change / v.variance * own[k];
+      length[index(k)] += whole * own[k] * own[k];
+    }
+    weight += v.active * whole;
+  }
+  for (auto& f : functions) projected.project(f);
+  Columns scores = Columns::Zero(q, index(clusters.size()));
+  Columns noise = Columns::Zero(q, q);  // of the scores, if the variances are right
+  VectorXd z(q);
+  for (std::size_t i = 0; i < r.size(); ++i) {
+    for (std::size_t k = 0; k < width; ++k) z[index(k)] = functions[k][i];
+    scores.col(index(clusters.of(left.values[i]))) += z * r[i];
+    noise.selfadjointView<Eigen::Lower>().rankUpdate(z, left.values[i].variance);
+  }
+  noise = Columns(noise.selfadjointView<Eigen::Lower>());
+  const double freedom = n / common - static_cast<double>(projected.rank());
+  const double independent = clusters.count();
+  const double most = clustered ? (independent - 2) / 3 : freedom / 4;
   if (!(most >= 1)) return out;
   compare_with_noise(left, r, out);
-  if (gains && only_rounded(left.values)) {  // all that was left is scales of angles
+  if (!gains.empty() && only_rounded(left.values, r)) {  // all that was left is scales of angles
     out.tested = true;
     return out;
   }
-  const double variance = chi / (n - static_cast<double>(projected.rank()));
+  const double variance = chi / out.freedom;
 
   // Functions of unit variance, the best visible ones first.
   const VectorXd scale = length.unaryExpr([](double l) { return l > 0 ? 1 / std::sqrt(l) : 0; });
@@ -350,11 +427,17 @@ Regression regress(Left left, Errors errors) {
   out.limited = kept < q && eigen.values[q - 1 - kept] > 1e-6;
   const Columns t = scaled(scale, eigen.vectors.rightCols(kept),
                            eigen.values.tail(kept).cwiseSqrt().cwiseInverse());
-  const VectorXd sum = scores.sum(), u = transposed_times(t, sum);
+  const VectorXd sum = scores.rowwise().sum(), u = transposed_times(t, sum);
+  Columns squares = Columns::Zero(q, q);
+  for (std::size_t k = 0; k < clusters.size(); ++k)
+    if (clusters.count(k) > 0)
+      squares.selfadjointView<Eigen::Lower>().rankUpdate(scores.col(index(k)),
+                                                         1 / clusters.count(k));
+  squares = Columns(squares.selfadjointView<Eigen::Lower>());
   const double of = static_cast<double>(kept);
-  const Columns meat = product(transposed_product(t, scores.squares()), t);
+  const Columns meat = product(transposed_product(t, squares), t);
   out.tested = true;
-  if (shared || independent >= many * of) {
+  if (clustered || independent >= many * of) {
     out.p = luck_of_scores(u.dot(times(Inverse(meat).inverse, u)), of, independent);
     out.noise = meat.trace();
   } else {
@@ -370,8 +453,50 @@ Regression regress(Left left, Errors errors) {
       if (static_cast<std::size_t>(belongs[k]) == g) own.push_back(index(k));
     out.follows[g] = sum(own).dot(Inverse(noise(own, own)).inverse * VectorXd(sum(own)));
   }
-  judge_cells(left, projected, r, shared, out);
+  judge_cells(left, projected, r, clusters, out);
   return out;
+}
+
+bool are_smooth(const Left& found, const std::vector<SharedAngle>& gains) {
+  std::optional<Left> settled;
+  if (found.robust) settle(settled.emplace(found), gains);
+  const Left& left = settled ? *settled : found;
+  const auto factors = Projected(left, gains).factors().back();
+  const auto& places = left.places[static_cast<std::size_t>(gains.back())];
+  const std::size_t channels = left.unknowns.size();
+  std::vector<std::size_t> order(places.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::ranges::sort(order, {}, [&](std::size_t k) { return places[k]; });
+  double differences = 0, squares = 0, pairs = 0;
+  for (std::size_t c = 0; c < channels; ++c) {
+    double mean = 0, own = 0;
+    for (const std::size_t k : order) mean += factors[k * channels + c];
+    mean /= static_cast<double>(order.size());
+    for (std::size_t n = 0; n < order.size(); ++n) {
+      const double here = factors[order[n] * channels + c];
+      own += (here - mean) * (here - mean);
+      if (n == 0 || places[order[n]][0] != places[order[n - 1]][0]) continue;
+      differences += std::pow(here - factors[order[n - 1] * channels + c], 2);
+      if (c == 0) ++pairs;
+    }
+    squares += own / static_cast<double>(order.size());
+  }
+  constexpr double few = 6, surely = 2.326;  // standard deviations: one in a hundred
+  return pairs >= few && squares > 0 &&
+         differences / pairs < squares * (2 - surely * 2 / std::sqrt(pairs + 2));
+}
+
+std::vector<double> moved_by_gains(const Left& left, SharedAngle axis) {
+  const Projected projected(left, {});
+  const Clusters angles(left, axis);
+  Columns moves = Columns::Zero(index(left.slots.size()), index(angles.size()));
+  for (std::size_t i = 0; i < left.values.size(); ++i) {
+    const auto& v = left.values[i];
+    if (v.active > 0) moves.col(index(angles.of(v))) += v.change * projected.influence(i);
+  }
+  std::vector<double> all;
+  for (Eigen::Index k = 0; k < moves.rows(); ++k) all.push_back(moves.row(k).norm());
+  return all;
 }
 
 }  // namespace gonio::misfit

@@ -3,18 +3,13 @@
 /// Regression of residuals on functions of the angles.
 
 #include <array>
+#include <optional>
+#include <vector>
 
 #include "fitting/judge/left_over.h"
 #include "fitting/result/document.h"
 
 namespace gonio::misfit {
-
-/// Errors that the values of one incident angle share.
-enum class Errors {
-  none,
-  scale,  ///< a factor: the scale of each angle and channel is left open, where there is room
-  any     ///< of any kind: only sums over an angle say something
-};
 
 /// Findings of the regressions, in units of the values' own variance.
 struct Regression {
@@ -31,16 +26,34 @@ struct Regression {
 
   double squares = 0, freedom = 0;  ///< of what is left
   double common = 1;                ///< values that say what one would if their errors were its own
-  std::size_t scales = 0;           ///< of incident angles, that were left open
+  std::size_t scales = 0;           ///< of angles, that were left open
   /// Probability that chance makes what is left so much larger than what neighbours differ by, and how
   /// many times as large it is.  Of values with neighbours; 1 without.
   double p_beside_noise = 1, beside_noise = 1;
 };
 
-Regression regress(Left, Errors);
+/// True where values under each angle of an axis are enough to tell its scale.
+bool has_room(const Left&, SharedAngle);
 
-/// Probability that scales of incident angles scatter so by chance.
+/// \param gains      axes whose angles each have a scale of their own, for each channel, which is left open
+/// \param clustered  axis whose angles share errors of any kind: only sums over an angle say something
+/// \param only_scatter  finds what is left and its freedom, and tests nothing
+/// The variances are found before.
+Regression regress(const Left&,
+                   const std::vector<SharedAngle>& gains = {},
+                   std::optional<SharedAngle> clustered = {},
+                   bool only_scatter = false);
+
+/// Probability that scales of angles scatter so by chance.
 /// \param open  the same regression with the scales open
 double luck_of_scales(const Regression&, const Regression& open);
+
+/// True where the scales of neighbouring angles of the last axis are nearer to each other than chance lets them be [von
+/// Neumann's ratio]: these are no gains, which know nothing of each other, but what a model misses.
+/// \param gains  the axes whose scales are open
+bool are_smooth(const Left&, const std::vector<SharedAngle>& gains);
+
+/// Standard errors of the unknowns by a gain for each angle, whose standard error is 1 in ln f.
+std::vector<double> moved_by_gains(const Left&, SharedAngle);
 
 }  // namespace gonio::misfit

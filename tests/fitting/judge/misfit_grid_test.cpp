@@ -1,6 +1,7 @@
 // Tables of few incident angles, as goniometers write them: a model that does not fit is never
 // taken for one that does, and the right model is not accused.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -47,8 +48,13 @@ const std::vector<TruthAndFit> right_pairs{
     {"lambert", "kd=0.3", "lambert"}};
 
 enum class Around { in_plane, half_turn, coarse };
+/// Angles whose values share a gain.
+enum class GainOf { incident, outgoing, detector, light_and_detector };
+constexpr std::array<const char*, 4> gain_names{"incident", "outgoing", "detector",
+                                                "light and detector"};
 struct Errors {
   double noise, gain;
+  GainOf of = GainOf::incident;
 };
 
 /// Exact values, and a table of them with errors.
@@ -83,11 +89,22 @@ MeasuredTable measured_table(
   m.table = t;
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
-  std::map<double, double> gain;
-  for (std::size_t i = 0; i < n; ++i) {
-    const auto [here, is_new] = gain.emplace(t.list()->theta_i_deg[i], 0);
+  std::map<std::array<double, 3>, double> gain;
+  const auto gain_of = [&](std::array<double, 3> key) {
+    const auto [here, is_new] = gain.emplace(key, 0);
     if (is_new) here->second = std::exp(errors.gain * normal(random));
-    m.table.values[0][i] *= here->second * std::exp(errors.noise * normal(random));
+    return here->second;
+  };
+  for (std::size_t i = 0; i < n; ++i) {
+    const auto& list = *t.list();
+    const double in = list.theta_i_deg[i], out = list.theta_o_deg[i], phi = list.phi_o_deg[i];
+    double& f = m.table.values[0][i];
+    if (errors.of == GainOf::incident || errors.of == GainOf::light_and_detector)
+      f *= gain_of({in, -1, -1});
+    if (errors.of == GainOf::outgoing) f *= gain_of({-1, out, -1});
+    if (errors.of == GainOf::detector || errors.of == GainOf::light_and_detector)
+      f *= gain_of({-1, out, out > 0 ? phi : 0});
+    f *= std::exp(errors.noise * normal(random));
   }
   return m;
 }
@@ -144,11 +161,11 @@ std::map<std::pair<Around, int>, GridTally> tallies_of(const Grid3& g, const cha
           for (unsigned seed = 1; seed <= g.seeds; ++seed) judge(pair, around, angles, e, seed, t);
           all[{around, angles}].add(t);
           table += fmt::format(
-              "{} layout {} angles {:>2} noise {:<5} gain {:<4} told {:>2} too few {:>2} of {:>2}, "
-              "wrong "
-              "{:>2} silent {:>2}  {} as {}\n",
-              what, static_cast<int>(around), angles, e.noise, e.gain, t.told, t.too_few, t.fits,
-              t.wrong, t.silent_and_wrong, pair.truth, pair.fitted);
+              "{} layout {} angles {:>2} noise {:<5} gain {:<4} by {:<8} told {:>2} too few {:>2} "
+              "of {:>2}, wrong {:>2} silent {:>2}  {} as {}\n",
+              what, static_cast<int>(around), angles, e.noise, e.gain,
+              gain_names[static_cast<std::size_t>(e.of)], t.told, t.too_few, t.fits, t.wrong,
+              t.silent_and_wrong, pair.truth, pair.fitted);
         }
   if (std::getenv("GONIO_LONG")) fmt::print("{}", table);
   return all;
@@ -162,9 +179,19 @@ Grid3 grid_of(const std::vector<TruthAndFit>& pairs) {
   if (is_long())
     return {pairs,
             {4, 7, 8, 10, 14},
-            {{0, 0}, {0.005, 0}, {0.02, 0}, {0.05, 0}, {0.02, 0.03}},
+            {{0, 0},
+             {0.005, 0},
+             {0.02, 0},
+             {0.05, 0},
+             {0.02, 0.03},
+             {0.02, 0.03, GainOf::outgoing},
+             {0.02, 0.03, GainOf::detector},
+             {0.005, 0.03, GainOf::light_and_detector}},
             seeds ? static_cast<unsigned>(std::atoi(seeds)) : 40};
-  return {{pairs[0], pairs[1], pairs[2]}, {7, 8, 10}, {{0.02, 0}, {0.02, 0.03}}, 1};
+  return {{pairs[0], pairs[1], pairs[2]},
+          {7, 8, 10},
+          {{0.02, 0}, {0.02, 0.03}, {0.02, 0.03, GainOf::outgoing}, {0.02, 0.03, GainOf::detector}},
+          1};
 }
 
 TEST(MisfitOfFewAngles, OfAWrongModelIsSaidOrThatTheValuesAreTooFew) {
@@ -218,6 +245,35 @@ TEST(MisfitOfFewAngles, WithErrorsByAngleAskedForIsJudgedToo) {
   o.model = wrong_pairs[0].fitted;
   o.intervals = Intervals::by_angle;
   EXPECT_TRUE(fit(table, o).document.misfit.told);
+}
+
+TEST(GainsOfAngles, AreNoMisfitOfTheRightModelAndWidenItsIntervals) {
+  GONIO_MANY_FITS();
+  const std::map<std::string, double> truth{{"alpha", 0.2}, {"f0", 0.05}, {"kd", 0.2}};
+  for (const GainOf of : {GainOf::outgoing, GainOf::detector, GainOf::light_and_detector})
+    for (const Around around : {Around::in_plane, Around::half_turn}) {
+      unsigned inside = 0, stated = 0, told = 0, fits = 0;
+      for (unsigned seed = 1; seed <= (is_long() ? 40U : 8U); ++seed) {
+        const auto m = measured_table(right_pairs[0], around, 14, {0.02, 0.03, of}, seed);
+        FitOptions o;
+        o.model = one_lobe;
+        const auto d = fit(m.table, o).document;
+        told += d.misfit.told;
+        ++fits;
+        for (const auto& [name, value] : truth) {
+          const auto& p = test::parameter(d, name);
+          ++stated;
+          inside += p.ci95_low[0] <= value && value <= p.ci95_high[0];
+        }
+        EXPECT_NE(d.intervals.find(", and errors shared by each "), std::string::npos)
+            << d.intervals;
+      }
+      const auto where = std::string(gain_names[static_cast<std::size_t>(of)]) +
+                         (around == Around::in_plane ? ", in plane" : ", half a turn");
+      EXPECT_LE(10 * told, fits) << where;
+      EXPECT_GE(10 * inside, (is_long() ? 8 : 7) * stated)
+          << where << ": " << inside << " of " << stated;
+    }
 }
 
 }  // namespace

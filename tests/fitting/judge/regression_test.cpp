@@ -28,8 +28,9 @@ std::vector<double> of_right_models(std::size_t tables, std::size_t samples) {
     const Sampling s(t, t.bins(), Metric::log, problem.offset, true);
     const Fitted f = minimise(problem, fit_data<double>(s), truth, no_huber);
     TableFacts facts(t);
-    const auto found =
-        misfit::regress(misfit::left_over(s, problem, f, facts), misfit::Errors::none);
+    auto left = misfit::left_over(s, problem, f, facts);
+    misfit::find_variances(left);
+    const auto found = misfit::regress(left);
     p[k] = found.tested ? found.p : 1;
   });
   return p;
