@@ -31,7 +31,7 @@ std::string unit_of(const Tolerance& t) {
   return t.metric == Metric::relative ? "relative" : "ΔE2000";
 }
 
-void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
+void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget) {
   const bool looked_up =
       m.needs_table() ||
       (m.forms[Effect::environment] == Form::split_sum &&
@@ -56,30 +56,33 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost) {
   say_below("  keep    ", kept.empty() ? "nothing" : kept);
   if (!dropped.empty()) say_below("  drop    ", dropped);
   if (!none.empty()) say_below("  absent  ", none);
-  if (m.bounded)
+  if (m.bounded) {
     say_below(
         "  check   ",
-        fmt::format("{:.3g} % of {} fresh points differ by at most {} {}; the worst by {:.2g}",
+        fmt::format("{:.3g} % of {} fresh points differ by at most {} {}; the worst by {}",
                     100 * t.quantile, m.checked.samples, unit_of(t),
-                    rounded_up(m.checked.upper, m.holds ? 2 : 3), m.checked.worst));
-  else
+                    rounded_up(m.checked.upper, m.holds ? 2 : 3), rounded_up(m.checked.worst)));
+    if (const double part = m.reference_error; part >= 0.1 * m.checked.upper)
+      say("          up to {} of that may be the reference's own error\n", rounded_up(part));
+  } else {
     say_below(
         "  check   ",
         fmt::format("{:.3g} % of {} fresh points differ from {} by {} {:.2g}; no walk is known of "
                     "this lobe, so that is no bound",
                     100 * t.quantile, m.checked.samples, reference_in_words(m.reference),
                     unit_of(t), m.checked.quantile));
+  }
   if (!m.holds)
-    say_below(
-        "  beware  ",
-        fmt::format("the tolerance is not kept: this is the nearest plan; the reference itself is "
-                    "known to {} {:.2g}",
-                    unit_of(t), m.reference_error));
+    say_below("  beware  ",
+              !has_budget    ? "no set of forms keeps the tolerance; this is the closest plan"
+              : m.could_hold ? "the budget leaves no set that keeps the tolerance here"
+                             : "no set of forms keeps the tolerance, with the budget or without");
   if (m.needs_table())
-    say_below(
-        "  beware  ",
-        fmt::format("no shader has this table: what shaders have differs by {} {:.2g} at best",
-                    unit_of(t), m.shipped_upper));
+    say_below("  beware  ",
+              fmt::format(
+                  "no shader has this table; with all else exact, what shaders have differs by {} "
+                  "{:.2g} at best, without the reference's own error",
+                  unit_of(t), m.shipped_quantile));
   if (m.passed_over > 0)
     say("          {} cheaper {} where chosen and failed on fresh points\n", m.passed_over,
         m.passed_over == 1 ? "set held" : "sets held");
@@ -137,7 +140,8 @@ Exit run(const PlanCall& o) {
   if (o.json) {
     fmt::print("{}", document);
   } else {
-    for (const auto& m : plan.materials) print(m, plan.tolerance, o.options.cost);
+    for (const auto& m : plan.materials)
+      print(m, plan.tolerance, o.options.cost, plan.budget.has_value());
     if (materials) say("{}: each material as planned, and as NAME_exact\n", materialx);
     for (const auto& said : written.differs) say_below("  beware  ", said);
   }
@@ -145,8 +149,8 @@ Exit run(const PlanCall& o) {
   if (!plan.budget) return held;
   const auto& b = *plan.budget;
   if (!o.json)
-    say("budget: {:.4g} ns of {:.4g} a point; the worst material's error is at most {:.3g}\n", b.ns,
-        b.budget_ns, b.error);
+    say("budget: {:.4g} ns of {:.4g} a point; the worst material's error is at most {}\n", b.ns,
+        b.budget_ns, rounded_up(b.error, 3));
   return b.fits ? held : Exit::check_failed;
 }
 

@@ -1,6 +1,7 @@
 #include "scene/plan/budget.h"
 
 #include <algorithm>
+#include <functional>
 #include <limits>
 
 namespace gonio::scene {
@@ -28,9 +29,32 @@ Shares cheapest(const std::vector<Sharer>& all, double most_error) {
   return s;
 }
 
+/// Gives what is left of a budget to those that err by more than enough.
+void spend(Shares& s, const std::vector<Sharer>& all, double budget_ns, double enough) {
+  double covered = 0;
+  std::vector<std::size_t> order(all.size());
+  for (std::size_t i = 0; i < all.size(); ++i) covered += all[order[i] = i].coverage;
+  const auto chosen = [&](std::size_t i) -> const Choice& { return all[i].choices[s.choice[i]]; };
+  std::ranges::stable_sort(order, std::greater{}, [&](std::size_t i) { return chosen(i).error; });
+  for (const std::size_t i : order) {
+    if (!(chosen(i).error > enough) || !(covered > 0)) continue;
+    const double share = all[i].coverage / covered;
+    const Choice before = chosen(i);
+    const auto better = [&](const Choice& a, const Choice& b) {
+      return std::max(a.error, enough) < std::max(b.error, enough) ||
+             (a.error <= enough && b.error <= enough && a.ns < b.ns);
+    };
+    for (std::size_t k = 0; k < all[i].choices.size(); ++k) {
+      const Choice& c = all[i].choices[k];
+      if (s.ns + share * (c.ns - before.ns) <= budget_ns && better(c, chosen(i))) s.choice[i] = k;
+    }
+    s.ns += share * (chosen(i).ns - before.ns);
+  }
+}
+
 }  // namespace
 
-Shares share_out(const std::vector<Sharer>& all, double budget_ns) {
+Shares share_out(const std::vector<Sharer>& all, double budget_ns, double enough) {
   std::vector<double> errors;
   for (const auto& sharer : all)
     for (const auto& c : sharer.choices) errors.push_back(c.error);
@@ -40,6 +64,7 @@ Shares share_out(const std::vector<Sharer>& all, double budget_ns) {
   const auto least = std::ranges::partition_point(errors, [&](double e) { return !fits(e); });
   Shares s = cheapest(all, least == errors.end() ? infinity : *least);
   s.fits = least != errors.end();
+  if (s.fits) spend(s, all, budget_ns, enough);
   return s;
 }
 

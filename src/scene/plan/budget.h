@@ -3,6 +3,7 @@
 /// A time for a whole scene, shared out among its materials.
 
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace gonio::scene {
@@ -24,7 +25,11 @@ struct Shares {
 };
 
 /// Choices with the least worst error whose mean time keeps the budget; of those with that error the cheapest.  The worst
-/// error is one of the choices' own: the least of these for which everyone's cheapest choice within it fits.
-Shares share_out(const std::vector<Sharer>&, double budget_ns);
+/// error is one of the choices' own: the least of these for which everyone's cheapest choice within it fits.  What is left of the
+/// budget goes to those that err by more than `enough`, the worst first: each takes the cheapest choice that errs by no more, or
+/// else the nearest that fits.
+Shares share_out(const std::vector<Sharer>&,
+                 double budget_ns,
+                 double enough = std::numeric_limits<double>::infinity());
 
 }  // namespace gonio::scene

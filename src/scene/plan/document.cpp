@@ -59,7 +59,8 @@ template <>
 inline constexpr auto description<scene::Budget> = FieldList{
     Field{"budget_ns", &scene::Budget::budget_ns, "mean time of a visible point", amounts},
     Field{"ns", &scene::Budget::ns, "of the plan", amounts},
-    Field{"error", &scene::Budget::error, "upper bound of the worst material's quantile", amounts},
+    Field{"error", &scene::Budget::error,
+          "upper bound of the worst material's quantile, on fresh points", amounts},
     Field{"fits", &scene::Budget::fits, "false: even the cheapest forms take longer"}};
 
 template <>
@@ -130,6 +131,9 @@ struct Description<scene::MaterialPlan> {
         field("shipped_error_upper", &M::shipped_upper,
               "least error_upper of a compensation that shaders have, all else exact", amounts,
               or_default),
+        field("shipped_error_quantile", &M::shipped_quantile,
+              "least error_if_dropped of such a compensation: without the reference's own error",
+              amounts, or_default),
         field("reference_error", &M::reference_error,
               "quantile of what the reference itself may be off by: in the differences", amounts,
               or_default),

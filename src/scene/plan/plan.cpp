@@ -76,6 +76,7 @@ class MaterialPlanner {
   MaterialPlan plan() {
     screen();
     make_candidates();
+    if (!scene_.budget_ns) add_sets_whose_errors_cancel();  // else every form is a candidate's
     measure();
     return chosen();
   }
@@ -167,8 +168,7 @@ class MaterialPlanner {
         planned.error_if_dropped = *bound;
         left = {offer.forms.front()};
       } else {
-        auto changes = compared_with(dropped).differences_of(scene_, dropped);
-        planned.error_if_dropped = judge(changes, scene_.tolerance).quantile;
+        planned.error_if_dropped = changed_by(dropped);
         const auto may_be = [&](Form form) {
           if (form == offer.forms.back() || scene_.budget_ns) return true;
           if (e == Effect::environment) return looks_up;
@@ -176,8 +176,12 @@ class MaterialPlanner {
                  (looks_up &&
                   judged(with(Effect::environment, lookup, e, form)).keeps(scene_.tolerance));
         };
+        // No shader takes double for so little, whatever a noisy clock says.
+        const bool rounds_unseen =
+            e == Effect::precision &&
+            planned.error_if_dropped <= proved_share * scene_.tolerance.limit;
         for (const auto form : offer.forms)
-          if (may_be(form)) left.push_back(form);
+          if (may_be(form) && (left.empty() || !rounds_unseen)) left.push_back(form);
       }
       effects_.push_back(planned);
     }
@@ -196,26 +200,71 @@ class MaterialPlanner {
     return scene_.tolerance.metric == Metric::relative ? *change : delta_e_bound(*change);
   }
 
-  void make_candidates() {
-    std::array<double, effect_count> saved;
-    std::ranges::transform(effects_, saved.begin(), [&](const PlannedEffect& e) {
+  std::array<double, effect_count> saved() const {
+    std::array<double, effect_count> all;
+    std::ranges::transform(effects_, all.begin(), [&](const PlannedEffect& e) {
       return options_.cost == Cost::time ? e.ns_saved : e.ops_saved;
     });
-    thin_out(left_, saved, most_candidates);
-    std::set<Key> known;
-    for (const Forms& forms : combinations(left_)) {
-      Candidate c;
-      c.forms = plain(forms);
-      Surface s = look_.surface(c.forms);
-      if (!known.insert(key_of(s)).second) continue;
-      candidates_.push_back(c);
-      surfaces_.push_back(std::move(s));
+    return all;
+  }
+  void make_candidates() {
+    thin_out(left_, saved(), most_candidates);
+    for (const Forms& forms : combinations(left_))
+      if (auto s = new_surface(forms)) {
+        candidates_.push_back({.forms = plain(forms)});
+        surfaces_.push_back(*std::move(s));
+      }
+  }
+  /// Surface of a set that computes something new.
+  std::optional<Surface> new_surface(const Forms& forms) {
+    Surface s = look_.surface(plain(forms));
+    if (!known_.insert(key_of(s)).second) return {};
+    return s;
+  }
+
+  /// Errors of forms may cancel: of all sets of forms that shaders have, those that keep the tolerance though one of their forms by
+  /// itself does not.  A few points tell of most that they do not.
+  void add_sets_whose_errors_cancel() {
+    constexpr std::size_t few = 512;
+    FormsLeft all = left_;
+    for (std::size_t i = 0; i < effect_count; ++i) {
+      const auto e = static_cast<Effect>(i);
+      if (effects_[i].why != Why::measured || e == Effect::environment || e == Effect::precision)
+        continue;
+      all[i] = look_.offer(e).forms;
+      if (e == Effect::compensation && all[i].size() > 1) std::erase(all[i], Form::tabulated);
     }
+    thin_out(all, saved(), most_candidates);
+    std::vector<Candidate> found;
+    std::vector<Surface> surfaces;
+    for (const Forms& forms : combinations(all))
+      if (auto s = new_surface(forms)) {
+        found.push_back({.forms = plain(forms)});
+        surfaces.push_back(*std::move(s));
+      }
+    if (found.empty()) return;
+    const Reference first(scene_, drawer_.draw(choosing, 0, few), exact_);
+    const double most_beyond =
+        (1 - scene_.tolerance.quantile) * static_cast<double>(options_.samples);
+    tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
+      if (!surfaces[i].image_lit) {
+        auto d = first.bounds_of(scene_, surfaces[i]);
+        const Judgement j = judge(d, scene_.tolerance);
+        if (j.worst > scene_.tolerance.max || static_cast<double>(j.exceeding) > most_beyond)
+          return;
+      }
+      found[i].error = judged(surfaces[i]);
+    });
+    for (std::size_t i = 0; i < found.size(); ++i)
+      if (found[i].error.samples > 0 && found[i].error.keeps(scene_.tolerance)) {
+        candidates_.push_back(found[i]);
+        surfaces_.push_back(std::move(surfaces[i]));
+      }
   }
 
   void measure() {
     tbb::parallel_for(std::size_t{0}, candidates_.size(), [&](std::size_t i) {
-      candidates_[i].error = judged(surfaces_[i]);
+      if (candidates_[i].error.samples == 0) candidates_[i].error = judged(surfaces_[i]);
       candidates_[i].ops = operations_of(surfaces_[i], reference_.points);
     });
     auto timed = surfaces_;
@@ -269,12 +318,19 @@ class MaterialPlanner {
            j.worst <= reserve * t.max;
   }
 
-  double shipped_upper() const {
-    double least = std::numeric_limits<double>::infinity();
-    for (const auto form : look_.offer(Effect::compensation).forms)
-      if (form != Form::tabulated)
-        least = std::min(least, judged(with(Effect::compensation, form)).upper);
-    return least;
+  /// What a surface changes: the quantile of its differences, without the reference's own error.
+  double changed_by(const Surface& s) const {
+    auto changes = compared_with(s).differences_of(scene_, s);
+    return judge(changes, scene_.tolerance).quantile;
+  }
+  void compare_shipped(MaterialPlan& p) const {
+    p.shipped_upper = p.shipped_quantile = std::numeric_limits<double>::infinity();
+    for (const auto form : look_.offer(Effect::compensation).forms) {
+      if (form == Form::tabulated) continue;
+      const Surface s = with(Effect::compensation, form);
+      p.shipped_upper = std::min(p.shipped_upper, judged(s).upper);
+      p.shipped_quantile = std::min(p.shipped_quantile, changed_by(s));
+    }
   }
 
   MaterialPlan chosen() {
@@ -292,23 +348,37 @@ class MaterialPlanner {
     p.directions = static_cast<double>(reference_.points.point.size()) /
                    static_cast<double>(reference_.points.count);
     front(p);
-    p.shipped_upper = shipped_upper();
+    compare_shipped(p);
     if (scene_.budget_ns) return p;
+    // The first that is likely to hold in a verification, too; else the first that holds here.
+    struct Checked {
+      const Candidate* set;
+      Judgement error;
+      std::size_t passed_over;
+    };
+    std::optional<Checked> holding;
+    std::size_t passed_over = 0;
     for (const auto* c : in_order()) {
-      const auto& surface = surfaces_[static_cast<std::size_t>(c - candidates_.data())];
-      p.checked = checked(surface);
-      if (passes(p.checked)) {
-        p.holds = true;
-        take(p, look_, c->forms, c->ns, c->ops);
-        return p;
-      }
-      ++p.passed_over;
+      const auto error = checked(surfaces_[static_cast<std::size_t>(c - candidates_.data())]);
+      const bool sure = passes(error);
+      if (sure || (!holding && error.holds(scene_.tolerance)))
+        holding = Checked{c, error, passed_over};
+      if (sure) break;
+      ++passed_over;
     }
+    if (holding) {
+      p.holds = true;
+      p.checked = holding->error;
+      p.passed_over = holding->passed_over;
+      take(p, look_, holding->set->forms, holding->set->ns, holding->set->ops);
+      return p;
+    }
+    p.passed_over = passed_over;
     // Nearest is what changes nothing: it errs by what the reference does.
     const auto same = look_.structural();
     const std::array surface{look_.surface(same)};
     p.checked = checked(surface[0]);
-    p.holds = passes(p.checked);
+    p.holds = p.checked.holds(scene_.tolerance);
     take(p, look_, same, times_of(surface, reference_.points)[0].ns,
          operations_of(surface[0], reference_.points));
     return p;
@@ -347,6 +417,7 @@ class MaterialPlanner {
   ReachedAngles reached_{{1, 0}};
   std::vector<PlannedEffect> effects_;
   FormsLeft left_;
+  std::set<Key> known_;  ///< of all sets so far
   std::vector<Candidate> candidates_;
   std::vector<Surface> surfaces_;
   double ns_exact_ = 0;
@@ -381,8 +452,8 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     for (const auto& c : m.front) sharer.choices.push_back({c.ns * m.directions, c.error.upper});
     sharers.push_back(std::move(sharer));
   }
-  const auto shares = share_out(sharers, *s.budget_ns);
-  plan.budget = Budget{*s.budget_ns, shares.ns, shares.error, shares.fits};
+  const auto shares = share_out(sharers, *s.budget_ns, s.tolerance.limit);
+  plan.budget = Budget{*s.budget_ns, shares.ns, 0, shares.fits};
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     auto& m = plan.materials[i];
     const auto& c = m.front[shares.choice[i]];
@@ -394,7 +465,11 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     const Surface exact = look.surface(look.exact()), surface = look.surface(c.forms);
     m.checked = judge_fresh(s, drawer, checking, fresh_points(s, options, surface), exact, surface);
     m.holds = m.checked.holds(s.tolerance);
+    m.could_hold = std::ranges::any_of(
+        m.front, [&](const Candidate& each) { return each.error.keeps(s.tolerance); });
   }
+  for (const auto& m : plan.materials)
+    plan.budget->error = std::max(plan.budget->error, m.checked.upper);
 }
 
 /// Gives each material that an object has the plan of the first that is the same.
@@ -441,7 +516,7 @@ Plan plan_scene(const Scene& s, const PlanOptions& asked, const std::function<vo
   if (const std::size_t verified = samples_of_verification(s); verified > verified_samples)
     options.fresh = std::max(asked.fresh, 4 * verified);
   const Lit lit(s);
-  Plan plan{s.sha256, s.tolerance, {}, {}, false};
+  Plan plan{s.sha256, s.tolerance, {}, {}, false, {}, options.cost};
   for (std::size_t m = 0; m < s.materials.size(); ++m) {
     if (lit.same_as[m] != m || !lit.is_seen(m)) continue;
     plan.materials.push_back(MaterialPlanner(lit, m, options).plan());

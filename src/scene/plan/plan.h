@@ -58,9 +58,11 @@ struct MaterialPlan {
   double reference_error = 0;  ///< quantile of that error
   /// Least upper bound of what light between facets in a form that shaders have leaves, all else exact.
   double shipped_upper = 0;
+  double shipped_quantile = 0;  ///< the least quantile of these, without the reference's own error
   bool holds =
-      false;          ///< the tolerance; else no form that is offered does, and this is the nearest
-  Judgement checked;  ///< on fresh points
+      false;  ///< the tolerance; else no form that is offered does, and this is the nearest
+  bool could_hold = false;  ///< a set of the front keeps the tolerance: only the budget forbids it
+  Judgement checked;        ///< on fresh points
   std::size_t passed_over =
       0;  ///< cheaper sets that kept the tolerance where they were chosen, but not on fresh points
   double coverage = 0;           ///< of the picture
@@ -78,9 +80,12 @@ std::string reference_in_words(std::string_view form);
 struct Budget {
   double budget_ns = 0;  ///< mean over visible points, weighted by coverage
   double ns = 0;         ///< of the plan
-  double error = 0;      ///< the worst of the materials' upper bounds
+  double error = 0;      ///< the worst of the materials' upper bounds, on fresh points
   bool fits = false;     ///< else every material takes what is cheapest
 };
+
+/// Cost by which sets are compared: time as it was measured, or operations, which are the same everywhere.
+enum class Cost { time, operations };
 
 struct Plan {
   std::string scene_sha256;
@@ -89,10 +94,8 @@ struct Plan {
   std::optional<Budget> budget;
   bool holds = false;                 ///< of every material
   std::vector<OwnFile> shaders = {};  ///< files that the materials take functions from
+  Cost cost = Cost::time;             ///< by which sets were compared
 };
-
-/// Cost by which sets are compared: time as it was measured, or operations, which are the same everywhere.
-enum class Cost { time, operations };
 
 struct PlanOptions {
   std::size_t samples = 4096;   ///< points that sets are compared on
@@ -113,13 +116,14 @@ std::size_t points_of_plan(const Scene&, std::size_t samples);
 ///   1  effects that change nothing take their cheapest form
 ///   2  so do those whose change is proved to be less than a tenth of the tolerance
 ///   3  of the others, every form that keeps the tolerance while all else is exact is a candidate's; candidates are their
-///      combinations, at most 512.  Those that look an environment up are compared with 1024 directions a point
+///      combinations, at most 512.  Those that look an environment up are compared with 1024 directions a point.  Errors may
+///      cancel: of at most 512 sets of any forms that shaders have, those that keep the tolerance are candidates, too
 ///   4  the cheapest that keeps the tolerance, ties within the spread of times going to fewer effects, is checked on fresh
 ///      points, strictly enough that fresh ones of a verification are likely to agree; if it fails the next is taken; if all
-///      do, what changes nothing
+///      do, the first that still holds on these points; if none does, what changes nothing
 ///
 /// Each point's difference counts with what the reference itself may be off by there.  Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
-/// the budget leaves; the tolerance may be broken then, which a verification tells.
+/// the budget leaves, and what is left of it goes to those that break the tolerance; it may be broken then, which a verification shows.
 ///
 /// \param done  part that is done, in [0, 1]
 Plan plan_scene(const Scene&,

@@ -52,6 +52,19 @@ TEST(Budget, HasTheLeastWorstErrorOfAllWaysToShare) {
   }
 }
 
+TEST(Budget, GivesWhatIsLeftToThoseWhoErrTooMuch) {
+  const Sharer lost{0.5, {{1, 4.1}, {100, 0.2}}},
+      saved{0.5, {{1, 1.4}, {2, 1.2}, {4, 0.9}, {9, 0.1}}};
+  const double budget = 3;
+  EXPECT_EQ(share_out({lost, saved}, budget).choice, (std::vector<std::size_t>{0, 0}));
+  const auto s = share_out({lost, saved}, budget, 1);
+  EXPECT_EQ(s.choice, (std::vector<std::size_t>{0, 2})) << "no more than is enough";
+  EXPECT_EQ(s.ns, 2.5);
+  EXPECT_EQ(s.error, 4.1);
+  EXPECT_EQ(share_out({lost, saved}, 1.6, 1).choice, (std::vector<std::size_t>{0, 1}))
+      << "the nearest that fits";
+}
+
 TEST(Budget, TakesTheCheapestWhereNothingFits) {
   const auto all = some_sharers(3, 3, 4);
   const auto s = share_out(all, 0.5);

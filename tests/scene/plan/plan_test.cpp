@@ -66,6 +66,31 @@ TEST(Plan, KeepsWhatAMaterialNeeds) {
                         "coupling"}));
 }
 
+/// Two lights on the viewer's side.
+std::vector<Light> two_lights() {
+  return {test::light({0.5, 0.6, 0.62}, 2), test::light({-0.7, 0.2, 0.69}, 2)};
+}
+
+TEST(Plan, TakesFormsWhoseErrorsCancelThoughOneFailsByItself) {
+  const auto gold =
+      test::material("ggx/smith_ggx.correlated/conductor", {"roughness=0.45", "metal=Au"});
+  const auto p = planned(gold, two_lights(), {.limit = 5, .max = 50});
+  EXPECT_TRUE(p.holds);
+  EXPECT_EQ(p.effects[1].form, "kulla_conty");
+  EXPECT_GT(p.shipped_upper, 5) << "which fails with all else exact";
+  EXPECT_LE(p.shipped_quantile, p.shipped_upper);
+  EXPECT_LE(p.checked.upper, 5);
+}
+
+TEST(Plan, HoldsWhereTheWorstPointIsJustWithinTheMost) {
+  const auto silver =
+      test::material("ggx/smith_ggx.correlated/conductor", {"roughness=0.95", "metal=Ag"});
+  const auto p = planned(silver, two_lights(), {.limit = 0.75, .max = 0.85});
+  EXPECT_GT(p.checked.worst, 0.9 * 0.85);
+  EXPECT_LE(p.checked.worst, 0.85);
+  EXPECT_TRUE(p.holds) << "as a verification finds";
+}
+
 /// The six, or two of them under a sanitizer.
 std::vector<Material> some() {
   auto all = test::six();
@@ -220,6 +245,9 @@ TEST(Plan, SharesABudgetOut) {
   const auto poor = plan_scene(s, options);
   EXPECT_FALSE(poor.budget->fits);
   EXPECT_GT(poor.budget->error, 1);
+  EXPECT_EQ(poor.budget->error,
+            std::max(poor.materials[0].checked.upper, poor.materials[1].checked.upper));
+  for (const auto& m : poor.materials) EXPECT_TRUE(m.could_hold) << "it is the budget";
   for (const auto& m : poor.materials)
     for (const auto& c : m.front) EXPECT_LE(m.ns, c.ns);
   s.budget_ns = (rich.budget->ns + poor.budget->ns) / 2;
