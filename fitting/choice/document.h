@@ -10,7 +10,8 @@ namespace gonio {
 
 /// Table that models were compared on, as a document names it.
 struct ComparedTable {
-  std::string path, sha256, format, metric, mask;
+  std::string path, sha256, format, metric;
+  std::string mask = {};  ///< expression of --mask; "": none
 };
 
 ComparedTable compared_table(const Table&, const FitOptions&);

@@ -15,6 +15,7 @@
 #include "many_fits.h"
 #include "refusal.h"
 #include "table/format/formats.h"
+#include "table/sample_mask.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -363,6 +364,24 @@ TEST(Fit, IgnoresMaskedValuesWhateverTheyAre) {
   const auto a = fit(clean, o), c = fit(dirty, o);
   EXPECT_EQ(a.model.values, c.model.values);
   EXPECT_EQ(c.document.masked.at("not_finite"), clean.size() / 10);
+}
+
+TEST(Fit, SaysWhatAnExpressionLeftOut) {
+  const auto model = "lambert+ggx/smith_ggx.correlated/schlick";
+  const Table whole = table_of(model, "alpha=0.3 kd=0.2 f0=0.05", 0.01);
+  FitOptions o;
+  o.model = model;
+  const auto before = fit(whole, o).document;
+  EXPECT_FALSE(before.mask);
+  EXPECT_FALSE(before.masked.contains("left_out_by_mask"));
+  Table t = whole;
+  leave_out(t, "theta_o > 60");
+  const auto d = fit(t, o).document;
+  EXPECT_EQ(d.mask, "theta_o > 60");
+  const auto left_out = d.masked.at("left_out_by_mask");
+  EXPECT_GT(left_out, 0U);
+  EXPECT_EQ(d.values_used + left_out, before.values_used);
+  if (t.grid()) EXPECT_EQ(d.masked.at("not_finite"), before.masked.at("not_finite"));
 }
 
 TEST(Fit, IsTheSameDocumentForAnyNumberOfThreads) {

@@ -63,6 +63,24 @@ TEST(SampleMask, TakesTheValuesOfAGridAway) {
     EXPECT_EQ(std::isnan(t.values[0][i]), at(i).nov < std::cos(45 * degree)) << i;
 }
 
+TEST(SampleMask, CountsTheValuesThatItLeavesOut) {
+  Table list = of_directions();
+  EXPECT_EQ(values_left_out(list), 0U);
+  leave_out(list, "theta_o > 75");
+  EXPECT_EQ(list.mask, "theta_o > 75");
+  EXPECT_EQ(values_left_out(list), 2U * 4U) << "of two channels";
+  Table grid = test::mbsdf_example(5, 4);
+  const auto valid = [](const Table& t) {
+    const SampleAngles at(t);
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < t.size(); ++i) n += mask(at(i), t.values[0][i]) == Mask::valid;
+    return n * t.values.size();
+  };
+  const auto before = valid(grid);
+  leave_out(grid, "theta_o > 45");
+  EXPECT_EQ(valid(grid) + values_left_out(grid), before);
+}
+
 TEST(SampleMask, RefusesWithItsPlaceWhatIsNoExpression) {
   const auto refused = [](std::string_view expression, Exit code) {
     Table t = of_directions();

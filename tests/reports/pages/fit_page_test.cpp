@@ -69,6 +69,18 @@ TEST(FitPage, ShowsAParameterWithItsIntervalLimitOrReason) {
     EXPECT_NE(html.find(std::string("<section id=\"") + id), html.npos) << id;
 }
 
+TEST(FitPage, NamesItsOwnDocumentAndTheCommandThatOpensBothWithSliders) {
+  FitDocument d;
+  d.model = "lambert";
+  d.input_path = "a b.csv";
+  const Table t = test::filled(test::in_out_grid(), test::glossy());
+  const auto page = make_fit_page(t, test::glossy());
+  EXPECT_EQ(html_of(d).find("gonio explore"), std::string::npos) << "of a fit without a document";
+  const auto html = fit_page_html(d, t, inspect(t), page, "out/paint.json");
+  EXPECT_NE(html.find("gonio explore &#39;a b.csv&#39; paint.json"), html.npos);
+  EXPECT_EQ(html.find("fit.json"), html.npos);
+}
+
 TEST(FitPage, ShowsRatiosUncertaintiesAndWhatIsLeftOut) {
   FitDocument d;
   d.model = "lambert";

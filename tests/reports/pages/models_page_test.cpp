@@ -171,6 +171,26 @@ TEST(ModelsPage, IsTheSameOnAnyNumberOfThreads) {
   EXPECT_EQ(on(1), on(2));
 }
 
+TEST(ModelsPage, ItsCommandsLeaveOutWhatTheComparisonLeftOut) {
+  const ModelChoice c = test::compared_models();
+  const ComparedTable table{"t.csv", "0ab1", "csv", "log", "theta_o > 80"};
+  const std::string html = models_page_html(c, advise(c), table, page_of(c));
+  EXPECT_NE(html.find(" --mask &#39;theta_o &gt; 80&#39;"), html.npos);
+  EXPECT_EQ(json::parse(to_json(c, advise(c), table))["input"]["mask"], "theta_o > 80");
+}
+
+TEST(ModelsPage, SaysWhetherToTakeAModelOrThatNoneFits) {
+  ModelChoice c = test::compared_models();
+  const auto begins = [&] {
+    const auto html = models_page_html(c, advise(c), {"t.csv", "0ab1", "csv", "log"}, page_of(c));
+    return std::pair(html.find("No model fits the table") != html.npos,
+                     html.find("<b>recommended</b>") != html.npos);
+  };
+  EXPECT_EQ(begins(), std::pair(false, true));
+  for (auto& r : c.rows) r.misses = true;
+  EXPECT_EQ(begins(), std::pair(true, false));
+}
+
 TEST(ModelsPage, OfANastyFileHasNoElementOfIts) {
   const ModelChoice c = test::compared_models();
   const std::string path = "</script><img src=x onerror=alert(1)>\xff.csv";
