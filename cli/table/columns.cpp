@@ -1,6 +1,8 @@
 // gonio columns: what the columns of a CSV file are, said once.
 #include <algorithm>
+#include <charconv>
 #include <cmath>
+#include <cstdlib>
 #include <set>
 
 #include "base/file.h"
@@ -10,6 +12,7 @@
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "table/format/column_proposal.h"
+#include "table/format/columns_command.h"
 #include "table/format/delimited.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
@@ -22,16 +25,43 @@ namespace {
 
 struct ColumnsCall : Common {
   std::vector<std::string> files, words;
-  ColumnMap map;
+  bool radians = false, cosine = false;
+  std::optional<std::string> cosines;
+  std::optional<double> forward_deg, scale;
+  std::size_t skip = 0;
 };
 
 bool says_anything(const ColumnsCall& o) {
-  const ColumnMap usual;
-  return !o.words.empty() || o.map.radians || o.map.cosine ||
-         o.map.forward_deg != usual.forward_deg || o.map.scale != usual.scale;
+  return !o.words.empty() || o.radians || o.cosine || o.cosines || o.forward_deg || o.scale;
+}
+std::optional<CosinePowers> cosines_of(const ColumnsCall& o) {
+  if (o.cosine && o.cosines) throw wrong_usage("--cosine is --cosines 0,1: give one of them");
+  if (!o.cosines) return o.cosine ? std::optional(CosinePowers{0, 1}) : std::nullopt;
+  CosinePowers powers;
+  const char* at = o.cosines->data();
+  const char* const end = at + o.cosines->size();
+  for (int* power : {&powers.incident, &powers.outgoing}) {
+    const auto [next, error] = std::from_chars(at, end, *power);
+    const bool last = power == &powers.outgoing;
+    if (error != std::errc() || std::abs(*power) > most_cosines ||
+        (last ? next != end : next == end || *next != ','))
+      throw wrong_usage(fmt::format("--cosines takes I,O, each from {} to {}, not '{}'",
+                                    -most_cosines, most_cosines, *o.cosines));
+    at = next + 1;
+  }
+  return powers;
+}
+/// The options of a call over what is known.
+ColumnMap changed(ColumnMap map, const ColumnsCall& o) {
+  map.radians = map.radians || o.radians;
+  map.cosines = cosines_of(o).value_or(map.cosines);
+  map.forward_deg = o.forward_deg.value_or(map.forward_deg);
+  map.scale = o.scale.value_or(map.scale);
+  if (o.skip != 0) map.skip = o.skip;
+  return map;
 }
 ColumnMap map_of(const ColumnsCall& o) {
-  ColumnMap map = o.map;
+  ColumnMap map = changed({}, o);
   for (const auto& word : o.words) {
     const auto at = word.find('=');
     const std::string role = word.substr(0, at);
@@ -66,14 +96,7 @@ ColumnMap with_known(const ColumnsCall& o, const std::string& file, ColumnMap ma
   if (!o.words.empty()) return map;
   const auto known = known_map(file);
   if (!known) return map;
-  const ColumnMap usual;
-  map.columns = known->columns;
-  map.radians = map.radians || known->radians;
-  map.cosine = map.cosine || known->cosine;
-  if (map.forward_deg == usual.forward_deg) map.forward_deg = known->forward_deg;
-  if (map.scale == usual.scale) map.scale = known->scale;
-  if (map.skip == 0) map.skip = known->skip;
-  return map;
+  return changed(*known, o);
 }
 
 /// The proposal for a file's columns, of which it has these below so many lines.
@@ -92,10 +115,10 @@ ColumnProposal proposal_for(InputFile& in,
 
 /// True where lines to pass over are all that is said, and the names below them are not enough.
 bool asks_below(const ColumnsCall& o, const std::string& file) {
-  if (o.map.skip == 0) return true;
+  if (o.skip == 0) return true;
   InputFile in(file);
   expect_columns(in);
-  const auto p = proposal_for(in, csv_columns(in, o.map.skip), o.map.skip);
+  const auto p = proposal_for(in, csv_columns(in, o.skip), o.skip);
   return !p.map || p.needed;
 }
 
@@ -167,18 +190,8 @@ void print(const ColumnProposal& p, const std::string& file) {
     say("no map, and none is needed: the columns have the names that gonio reads\n");
     return;
   }
-  std::string command = "gonio columns " + path_word(file) + " --map";
-  if (!p.map) command += " theta_i=… phi_i=… theta_o=… phi_o=… f=…";
-  if (p.map)
-    for (const auto& [role, column] : p.map->columns)
-      command += " " + shell_word(role + "=" + column);
-  if (p.map && p.map->radians) command += " --radians";
-  if (p.map && p.map->cosine) command += " --cosine";
-  if (p.map && p.map->forward_deg != ColumnMap().forward_deg)
-    command += fmt::format(" --forward {:g}", p.map->forward_deg);
-  if (p.map && p.map->scale != ColumnMap().scale)
-    command += fmt::format(" --scale {:.9g}", p.map->scale);
-  if (p.map && p.map->skip) command += fmt::format(" --skip {}", p.map->skip);
+  const std::string command = columns_command(file, p.map.value_or(ColumnMap())) +
+                              (p.map ? "" : " theta_i=… phi_i=… theta_o=… phi_o=… f=…");
   say("no map; {}\n  {}\n", p.map ? "by their names and ranges it would be" : "one is made by",
       command);
 }
@@ -187,7 +200,7 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   progress("reading " + file);
   InputFile in(file);
   expect_columns(in);
-  const std::size_t skip = o.map.skip;
+  const std::size_t skip = o.skip;
   const auto map = skip ? std::nullopt : known_map(file);
   const auto columns = csv_columns(in, map ? map->skip : skip);
   progress.clear();
@@ -282,17 +295,19 @@ void add_columns(CommandLine& line) {
        "f_*=*nm takes every column of that pattern. Unnamed: the column of "
        "that very name; azimuths: 0. Without --map a side file's columns stay")
       .at_most(4096);
-  c.flag("--radians", o->map.radians, "Angles are in radians");
-  c.flag("--cosine", o->map.cosine, "Values are f cos(theta_o)");
-  c.option("--forward", o->map.forward_deg,
+  c.flag("--radians", o->radians, "Angles are in radians");
+  c.flag("--cosine", o->cosine, "Values are f cos(theta_o)");
+  c.option(
+      "--cosines", o->cosines,
+      "I,O: values are f times cos(theta_i) to the power I and cos(theta_o) to the power O, as "
+      "--cosines=0,-1 where f was divided by cos(theta_o)");
+  c.option("--forward", o->forward_deg,
            "phi_o − phi_i of the mirror direction in degrees: 0 where phi is counted from where "
-           "the light goes to")
-      .in(-360.0, 360.0)
-      .show_default();
-  c.option("--scale", o->map.scale,
-           "Values times this are f in 1/sr: 0.3183099 for a radiance factor")
+           "the light goes to (default: 180)")
+      .in(-360.0, 360.0);
+  c.option("--scale", o->scale, "Values times this are f in 1/sr: 0.3183099 for a radiance factor")
       .in(1e-12, 1e12);
-  c.option("--skip", o->map.skip,
+  c.option("--skip", o->skip,
            "Lines at the top that are passed over (default: lines of words above the table)")
       .in(std::size_t{0}, std::size_t{1'000'000});
   add_output(c, *o);

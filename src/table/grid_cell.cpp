@@ -36,7 +36,10 @@ double GridCell::mean_of(const Values& values) const {
   return weight > 0.5 ? sum / weight : std::numeric_limits<double>::quiet_NaN();
 }
 
-GridCell cell_around(const Table& t, const SampleAngles& at, const DirectionPair& p) {
+GridCell cell_around(const Table& t,
+                     const SampleAngles& at,
+                     const DirectionPair& p,
+                     std::ptrdiff_t step) {
   const Grid& g = *t.grid();
   std::array<double, 3> angle;
   if (g.kind == Grid::Kind::half_difference) {
@@ -56,13 +59,13 @@ GridCell cell_around(const Table& t, const SampleAngles& at, const DirectionPair
     if (!(x >= -1 && x <= last + 1)) return cell;
     const bool periodic = axis.name == "phi_d" && axis.has_bins();
     const double inside = periodic ? x : std::clamp(x, 0.0, last);
-    const auto low = static_cast<std::ptrdiff_t>(std::floor(inside));
-    part[a] = inside - static_cast<double>(low);
-    for (std::ptrdiff_t up = 0; up < 2; ++up) {
-      const std::ptrdiff_t i = low + up;
-      corner[a][static_cast<std::size_t>(up)] =
-          static_cast<std::size_t>(periodic ? (i + size) % size : std::min(i, size - 1));
-    }
+    const auto low =
+        step * static_cast<std::ptrdiff_t>(std::floor(inside / static_cast<double>(step)));
+    const std::ptrdiff_t high = periodic ? low + step : std::min(low + step, size - 1);
+    part[a] =
+        high > low ? (inside - static_cast<double>(low)) / static_cast<double>(high - low) : 0;
+    corner[a] = {static_cast<std::size_t>((low + size) % size),
+                 static_cast<std::size_t>((high + size) % size)};
   }
   for (unsigned bits = 0; bits < 8; ++bits) {
     double w = 1;

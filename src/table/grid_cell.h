@@ -19,7 +19,11 @@ struct GridCell {
   /// Mean of a channel's valid values; NaN where they carry half of the weight or less.
   double mean_of(const Values&) const;
 };
-/// \param at  of the table, which is a grid
-GridCell cell_around(const Table&, const SampleAngles& at, const DirectionPair&);
+/// \param at    of the table, which is a grid
+/// \param step  samples from one corner to the next along each axis: 2 as if every other sample were missing
+GridCell cell_around(const Table&,
+                     const SampleAngles& at,
+                     const DirectionPair&,
+                     std::ptrdiff_t step = 1);
 
 }  // namespace gonio

@@ -95,6 +95,8 @@ inline constexpr std::size_t most_channels = 4096;
 inline constexpr double least_cosine = 0.01;
 
 /// Values as stored: f_r in 1/sr, without the cosine; invalid ones included (see mask()).
+struct ColumnMap;
+
 struct Table {
   std::string path;
   std::string sha256;  ///< of the file, where reading it had a reason to know
@@ -110,6 +112,8 @@ struct Table {
   std::optional<Truth> truth;     ///< if gonio made it
   std::vector<std::pair<std::string, std::string>> notes;  ///< further metadata, as strings
   std::vector<std::string> warnings;  ///< what is odd about the file, though it could be read
+  /// How the columns of a CSV file were read; null: of another table.
+  std::shared_ptr<const ColumnMap> columns;
   /// f_r of a channel between the samples of a list, where the format itself defines it everywhere;
   /// NaN where it does not.
   std::function<double(const DirectionPair&, std::size_t channel)> between;

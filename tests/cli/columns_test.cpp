@@ -1,12 +1,14 @@
 // gonio columns: what a file's columns are is said once, and every command knows it from then on.
 #include <cmath>
 #include <functional>
+#include <sstream>
 
 #include "brdf/model/evaluate.h"
 #include "cli/program.h"
 #include "geometry/half_difference.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio::test {
 namespace {
@@ -225,54 +227,154 @@ std::string paint_as(const std::string& heading,
   return text;
 }
 
-TEST(Columns, ThatHoldNoReflectanceAreMendedByTheCommandThatIsGiven) {
-  const auto one = [](auto&& value) {
-    return [value](double f, double i, double o) { return fmt::format("{:.12g}", value(f, i, o)); };
+/// The command that the line with these words gives; "" of none.
+std::string command_in(const std::string& text, const std::string& words) {
+  const auto said = text.find(words);
+  if (said == text.npos) return "";
+  const std::string line = text.substr(said, text.find('\n', said) - said);
+  const auto at = line.find("gonio ");
+  if (at == line.npos) return "";
+  std::string command = line.substr(at);
+  for (const char* after : {")", ", ", " leaves it out", " says so", " fits that"})
+    if (const auto end = command.find(after); end != command.npos) command.resize(end);
+  return command;
+}
+/// Runs it as it is printed.
+int run_printed(const Folder& f, const std::string& command) {
+  for (std::string rest = command; !rest.empty();) {
+    const auto end = rest.find(" && ");
+    EXPECT_TRUE(rest.starts_with("gonio ")) << command;
+    if (const int code = gonio(f, rest.substr(6, end == rest.npos ? end : end - 6)).code)
+      return code;
+    rest = end == rest.npos ? "" : rest.substr(end + 4);
+  }
+  return 0;
+}
+
+using Change = std::function<double(double f, double cos_i, double cos_o)>;
+std::string changed_paint(const Change& change) {
+  return paint_as(
+      "f", [&](double f, double i, double o) { return fmt::format("{:.12g}", change(f, i, o)); });
+}
+
+TEST(Columns, ThatHoldNoReflectanceAreMendedByTheCommandThatIsPrinted) {
+  const std::pair<const char*, Change> cases[] = {
+      {"a radiance factor", [](double f, double, double) { return M_PI * f; }},
+      {"in percent", [](double f, double, double) { return 100 * M_PI * f; }},
+      {"f cos(theta_o)", [](double f, double, double o) { return f * o; }},
+      {"f cos(theta_i)", [](double f, double i, double) { return f * i; }},
+      {"f cos(theta_i) cos(theta_o)", [](double f, double i, double o) { return f * i * o; }},
+      {"f/cos(theta_o)", [](double f, double, double o) { return f / o; }},
+      {"f/cos(theta_i)", [](double f, double i, double) { return f / i; }},
+      {"f/cos(theta_o)^2", [](double f, double, double o) { return f / (o * o); }},
+      {"f/(cos(theta_i) cos(theta_o))", [](double f, double i, double o) { return f / (i * o); }}};
+  for (const auto& [said, change] : cases)
+    for (const bool named : {false, true}) {
+      SCOPED_TRACE(fmt::format("{}{}", said, named ? ", other names" : ""));
+      const Folder f;
+      std::string text = changed_paint(change);
+      if (named) text = "in,pin,out,pout,val" + text.substr(text.find('\n'));
+      f.write("a table.csv", text);
+      if (named) {
+        ASSERT_EQ(gonio(f,
+                        "columns 'a table.csv' --map theta_i=in phi_i=pin theta_o=out "
+                        "phi_o=pout f=val --scale 1.0000001")
+                      .code,
+                  0);
+      }
+      const std::string beware = gonio(f, "inspect 'a table.csv'").out;
+      const std::string command = command_in(beware, said);
+      ASSERT_TRUE(command.starts_with("gonio columns 'a table.csv' ")) << beware;
+      ASSERT_EQ(run_printed(f, command), 0) << command;
+      EXPECT_EQ(gonio(f, "inspect 'a table.csv'").out.find("beware"), std::string::npos) << command;
+      const auto d = gonio(f, "fit 'a table.csv' --json").json();
+      EXPECT_NEAR(d["parameters"]["kd"]["value"].get<double>(), 0.3, 1e-4) << command;
+      EXPECT_NEAR(d["parameters"]["alpha"]["value"].get<double>(), 0.2, 1e-4) << command;
+    }
+}
+
+TEST(Columns, ThatWereSaidWrongAreMendedByTheCommandThatIsPrinted) {
+  const std::string right = changed_paint([](double f, double, double) { return f; });
+  for (const auto& [options, said] : {std::pair("--cosine", "f/cos(theta_o)"),
+                                      {"--cosines=1,0", "f/cos(theta_i)"},
+                                      {"--scale 100", "a radiance factor in percent"},
+                                      {"--forward 0", "counted otherwise"}}) {
+    const Folder f;
+    f.write("t.csv", right);
+    ASSERT_EQ(gonio(f, std::string("columns t.csv ") + options).code, 0);
+    const std::string beware = gonio(f, "inspect t.csv").out, command = command_in(beware, said);
+    ASSERT_NE(command, "") << options << beware;
+    ASSERT_EQ(run_printed(f, command), 0) << command;
+    EXPECT_EQ(gonio(f, "inspect t.csv").out.find("beware"), std::string::npos) << command;
+  }
+}
+
+TEST(Columns, OfAnglesThatAreNoneAreMendedByTheCommandThatIsPrinted) {
+  const std::string text = changed_paint([](double f, double, double) { return f; });
+  const auto turned = [&](auto&& angle) {
+    std::istringstream lines(text);
+    std::string line, all;
+    for (bool first = true; std::getline(lines, line); first = false) {
+      if (first) {
+        all += line + "\n";
+        continue;
+      }
+      std::vector<std::string> fields;
+      std::istringstream in(line);
+      for (std::string field; std::getline(in, field, ',');) fields.push_back(field);
+      for (std::size_t k = 0; k < 4; ++k)
+        fields[k] = fmt::format("{:.12g}", angle(k, std::stod(fields[k])));
+      all += fmt::format("{}\n", fmt::join(fields, ","));
+    }
+    return all;
   };
   const std::pair<const char*, std::string> cases[] = {
-      {"a radiance factor", paint_as("f", one([](double f, double, double) { return M_PI * f; }))},
-      {"in percent", paint_as("f", one([](double f, double, double) { return 100 * M_PI * f; }))},
-      {"f cos(theta_o)", paint_as("f", one([](double f, double, double o) { return f * o; }))},
-      {"channel r", paint_as("f_r,f_g,f_b", [](double f, double, double) {
-         return fmt::format("{:.9g},{:.9g},{:.9g}", f - 0.11, f + 0.1, f + 0.2);
-       })}};
+      {"if they are radians", turned([](std::size_t, double a) { return a * M_PI / 180; })},
+      {"counted otherwise", turned([](std::size_t k, double a) { return k == 3 ? 180 - a : a; })},
+      {"elevation", turned([](std::size_t k, double a) { return k % 2 == 0 ? 90 - a : a; })}};
+  for (const auto& [said, changed] : cases) {
+    const Folder f;
+    f.write("t.csv", changed);
+    const std::string beware = gonio(f, "inspect t.csv").out, command = command_in(beware, said);
+    ASSERT_NE(command, "") << said << beware;
+    ASSERT_EQ(run_printed(f, command), 0) << command;
+    EXPECT_EQ(gonio(f, "inspect t.csv").out.find(said), std::string::npos) << command;
+    const auto d = gonio(f, "fit t.csv --json").json();
+    EXPECT_NEAR(d["parameters"]["kd"]["value"].get<double>(), 0.3, 1e-3) << command;
+  }
+}
+
+TEST(Columns, OfOtherFormatsBecomeCsvFirst) {
+  const Folder f;
+  ASSERT_EQ(gonio(f, "synth lambert --set kd=0.9 --layout mbsdf -o t.mbsdf").code, 0);
+  ASSERT_EQ(gonio(f, "convert t.mbsdf t.csv").code, 0);
+  ASSERT_EQ(gonio(f, "columns t.csv --scale 3.14159265").code, 0);
+  ASSERT_EQ(gonio(f, "convert t.csv u.mbsdf").code, 0);
+  const std::string beware = gonio(f, "inspect u.mbsdf").out,
+                    command = command_in(beware, "a radiance factor");
+  ASSERT_TRUE(command.starts_with("gonio convert u.mbsdf u.mbsdf.csv && ")) << beware;
+  ASSERT_EQ(run_printed(f, command), 0) << command;
+  EXPECT_EQ(gonio(f, "inspect u.mbsdf.csv").out.find("times the light"), std::string::npos);
+}
+
+TEST(Columns, OfCountsAndOfOneStrangeChannelAreFittedByTheCommandThatIsPrinted) {
+  const std::string of_three = paint_as("f_r,f_g,f_b", [](double f, double, double) {
+    return fmt::format("{:.9g},{:.9g},{:.9g}", f - 0.11, f + 0.1, f + 0.2);
+  });
+  const std::pair<const char*, std::string> cases[] = {
+      {"counts?", changed_paint([](double f, double, double) { return 1e6 * f; })},
+      {"relative scale?", changed_paint([](double f, double, double) { return 1e-5 * f; })},
+      {"channel r", of_three}};
   for (const auto& [said, text] : cases) {
     const Folder f;
     f.write("t.csv", text);
     const std::string beware = gonio(f, "inspect t.csv").out;
-    const auto at = beware.find("(gonio columns FILE ");
-    ASSERT_NE(beware.find(said), beware.npos) << said << beware;
-    if (at == beware.npos) {
-      ADD_FAILURE() << said << beware;
-      continue;
-    }
-    auto options = beware.substr(at + 20, beware.find(')', at) - at - 20);
-    if (const auto words = options.find(" leaves"); words != options.npos) options.resize(words);
-    ASSERT_EQ(gonio(f, "columns t.csv " + options).code, 0) << options;
-    EXPECT_EQ(gonio(f, "inspect t.csv").out.find(said), std::string::npos) << options;
+    const std::string command = command_in(beware, said);
+    ASSERT_TRUE(command.starts_with("gonio fit t.csv ")) << beware;
+    const auto o = gonio(f, command.substr(6));
+    EXPECT_EQ(o.code, 0) << command;
+    EXPECT_EQ(o.out.find(said), std::string::npos) << command << o.out;
   }
-}
-
-TEST(Columns, WithTheLightsCosineAreMendedByExchangingTheDirectionsWhateverTheirNames) {
-  const std::string text =
-      paint_as("f", [](double f, double i, double) { return fmt::format("{:.12g}", f * i); });
-  const Folder f;
-  f.write("t.csv", "in,pin,out,pout,val" + text.substr(text.find('\n')));
-  ASSERT_EQ(gonio(f, "columns t.csv --map theta_i=in phi_i=pin theta_o=out phi_o=pout f=val").code,
-            0);
-  const std::string beware = gonio(f, "inspect t.csv").out;
-  EXPECT_NE(
-      beware.find("they look like f cos(theta_i) (in gonio columns FILE --map …, exchange the "
-                  "columns of theta_i and theta_o"),
-      beware.npos)
-      << beware;
-  EXPECT_EQ(beware.find("theta_i=theta_o"), beware.npos) << "the file has other names";
-  ASSERT_EQ(gonio(f,
-                  "columns t.csv --map theta_i=out phi_i=pout theta_o=in phi_o=pin f=val "
-                  "--cosine")
-                .code,
-            0);
-  EXPECT_EQ(gonio(f, "inspect t.csv").out.find("look like"), std::string::npos);
 }
 
 TEST(Columns, InJsonKeepTheirNamesAndHaveNoRangeWhereThereIsNoNumber) {

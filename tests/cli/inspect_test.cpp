@@ -32,6 +32,27 @@ TEST(Inspect, PlansWhatToMeasureNextWhereItIsAsked) {
       << words.substr(before.size());
 }
 
+TEST(Inspect, BoundsTheErrorOfTheAlbedoOfAnRglFile) {
+  for (const char* model :
+       {"lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.02 f0=0.04 kd=0.3",
+        "lambert+beckmann/smith_beckmann.correlated/schlick --set alpha=0.1 f0=0.04 kd=0.05",
+        "ggx/smith_ggx.correlated/schlick --set alpha=0.2 f0=0.9", "lambert --set kd=0.5"}) {
+    const Folder f;
+    ASSERT_EQ(gonio(f, std::string("synth ") + model + " --layout rgl -o t.bsdf").code, 0);
+    const auto rows = gonio(f, "inspect t.bsdf --json").json()["albedo"];
+    const auto truth =
+        gonio(f, std::string("albedo ") + model +
+                     " --mu 1 0.965925826 0.866025404 0.707106781 0.5 0.258819045 --json")
+            .json()["albedo"];
+    ASSERT_EQ(rows.size(), 6U);
+    for (std::size_t k = 0; k < 6; ++k) {
+      const double error = rows[k]["error"].get<double>(), right = truth[k].get<double>();
+      EXPECT_NEAR(rows[k]["albedo"][0].get<double>(), right, error) << model << " " << 15 * k;
+      EXPECT_LT(error, 0.1 * right) << model << " " << 15 * k;
+    }
+  }
+}
+
 TEST(Inspect, RefusesPlansInOneLine) {
   const Folder f;
   ASSERT_EQ(gonio(f, std::string("synth ") + paint + " --layout in_plane -o p.csv").code, 0);

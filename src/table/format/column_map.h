@@ -4,7 +4,8 @@
 ///
 ///   "columns": {"theta_i": "thetai", "phi_i": "#3", "theta_o": "thetar", "phi_o": "0", "f": "brdf",
 ///               "weight": …, "channel": "lambda",
-///               "unit": "degrees"|"radians", "forward": 180, "cosine": false, "scale": 1, "skip": 0}
+///               "unit": "degrees"|"radians", "forward": 180, "cosine": false, "cosines": [0, 0], "scale": 1,
+///               "skip": 0}
 ///
 /// theta_i, phi_i, theta_o, phi_o, f or f_NAME (one for each channel), u_f or u_f_NAME (their standard uncertainties [1/sr];
 /// u_rel in parts of the value, u_percent in percent; U_… where they are expanded by k = 2) and weight name a column: by its
@@ -19,6 +20,8 @@
 ///   forward  phi_o − phi_i of the mirror direction [degrees]: 180, or 0 where azimuths are counted
 ///            from the direction that the light travels in
 ///   cosine   values are f cos θ_o
+///   cosines  in its place: the powers of cos θ_i and cos θ_o that values are f times, as [0, −1] where f was divided
+///            by cos θ_o
 ///   scale    values times this are f [1/sr]; 1/π for a radiance factor
 ///   skip     lines at the top that are passed over
 ///
@@ -34,11 +37,18 @@
 
 namespace gonio {
 
+/// Powers of cos θ_i and cos θ_o that values are f times: {0, 1} of f cos θ_o.
+struct CosinePowers {
+  int incident = 0, outgoing = 0;
+  bool operator==(const CosinePowers&) const = default;
+};
+inline constexpr int most_cosines = 4;  ///< of either, up or down
+
 struct ColumnMap {
   std::vector<std::pair<std::string, std::string>> columns;  ///< role → name, "#k" or number
   bool radians = false;
   double forward_deg = 180;
-  bool cosine = false;
+  CosinePowers cosines;
   double scale = 1;
   std::size_t skip = 0;
 };

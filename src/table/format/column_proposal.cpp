@@ -652,7 +652,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
   if (!has_values) p.said.emplace_back("no column is called like a value, f or brdf");
   if (lacks || !has_values) return p;
   if (found.value && plain(columns[*found.value].name).starts_with("cc")) {
-    map.cosine = true;
+    map.cosines = {0, 1};
     p.said.push_back(columns[*found.value].name + " is f cos(theta_o)");
   }
 
@@ -667,7 +667,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
   map.radians = !constant && zenith <= std::numbers::pi / 2 + slack &&
                 any <= 2 * std::numbers::pi + slack && any > 0;
   if (map.radians) p.said.push_back(fmt::format("no angle is above {:.4g}: radians", any));
-  p.needed = map.radians || map.cosine ||
+  p.needed = map.radians || map.cosines != CosinePowers{} ||
              std::ranges::any_of(map.columns, [](const auto& c) { return c.first != c.second; });
   if (half) p.needed = true;
   p.map = std::move(map);

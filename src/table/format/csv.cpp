@@ -10,6 +10,7 @@
 #include "base/memory.h"
 #include "base/numbers.h"
 #include "geometry/half_difference.h"
+#include "table/format/columns_command.h"
 #include "table/format/csv_columns.h"
 #include "table/format/in_memory.h"
 #include "table/format/measured_by.h"
@@ -94,6 +95,8 @@ class CsvReader {
     read_rows();
     Table t;
     t.format = "csv";
+    t.path = path_;
+    t.columns = std::make_shared<const ColumnMap>(map_);
     const bool small = angles_are_small();
     gather_columns(t);
     if (columns_.header) lay_out_matrix(t);
@@ -110,9 +113,9 @@ class CsvReader {
     to_f(t);
     if (columns_.channel) gather_channels(t);
     if (small)
-      t.warnings.emplace_back(
-          "no zenith angle is above 1.6°: if they are radians, gonio columns FILE --radians says "
-          "so");
+      t.warnings.push_back("no zenith angle is above 1.6°: if they are radians, " +
+                           reading_command(t, [](ColumnMap& map) { map.radians = true; }) +
+                           " says so");
     // A grid of half and difference angles reaches below the horizon.
     if (needs_values_ && !columns_.has("theta_h")) expect_light_from_above(path_, *t.list());
     warn_of_directions(t, map_.forward_deg);
@@ -351,10 +354,14 @@ class CsvReader {
       for (auto& plane : *planes)
         for (std::size_t i = 0; i < plane.size(); ++i) {
           plane[i] *= map_.scale;
-          if (!map_.cosine) continue;
-          const double cosine = std::cos(t.list()->theta_o_deg[i] * degree);
-          plane[i] =
-              cosine < least_cosine ? std::numeric_limits<double>::quiet_NaN() : plane[i] / cosine;
+          const auto divide = [&](double theta_deg, int power) {
+            if (power == 0) return;
+            const double cosine = std::cos(theta_deg * degree);
+            plane[i] = cosine < least_cosine ? std::numeric_limits<double>::quiet_NaN()
+                                             : plane[i] / std::pow(cosine, power);
+          };
+          divide(t.list()->theta_i_deg[i], map_.cosines.incident);
+          divide(t.list()->theta_o_deg[i], map_.cosines.outgoing);
         }
   }
 
@@ -470,13 +477,14 @@ void warn_of_backward_peak(Table& t, double forward_deg) {
       });
   if (backward > 3 * forward && backward > 0)
     t.warnings.push_back(fmt::format(
-        "{} counted otherwise (gonio columns FILE --forward {:g})",
+        "{} counted otherwise ({})",
         forward == none
             ? "no value is on the mirror's side, all are on the light's: perhaps azimuths are"
             : fmt::format("values on the light's side reach {:.3g}, on the mirror's side {:.3g}: a "
                           "retro-reflector, or azimuths are",
                           backward, forward),
-        std::remainder(forward_deg + 180, 360)));
+        reading_command(
+            t, [&](ColumnMap& map) { map.forward_deg = std::remainder(forward_deg + 180, 360); })));
 }
 
 void append(std::string& text, double v) {
@@ -502,8 +510,9 @@ void warn_of_directions(Table& t, double forward_deg) {
   const auto n = static_cast<std::ptrdiff_t>(l.theta_i_deg.size());
   if (beyond(l.theta_o_deg, 90) * 5 > 2 * n && beyond(l.phi_o_deg, 90) == 0 &&
       std::ranges::any_of(l.phi_o_deg, [&](double p) { return p != l.phi_o_deg[0]; }))
-    t.warnings.emplace_back(
-        "theta_o goes far beyond 90° while phi_o never does: perhaps the two are swapped");
+    t.warnings.push_back(fmt::format(
+        "theta_o goes far beyond 90° while phi_o never does: perhaps the two are swapped ({})",
+        reading_command(t, [](ColumnMap& map) { exchange(map, "theta_o", "phi_o"); })));
   warn_of_backward_peak(t, forward_deg);
 }
 

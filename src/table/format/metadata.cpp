@@ -91,6 +91,14 @@ double scale(const JsonReader& j) {
   return v;
 }
 
+CosinePowers read_cosines(const JsonReader& j) {
+  const auto powers = j.numbers();
+  const auto is_power = [](double p) { return p == std::floor(p) && std::abs(p) <= most_cosines; };
+  if (powers.size() != 2 || !std::ranges::all_of(powers, is_power))
+    j.fail(fmt::format("two whole numbers from {} to {}", -most_cosines, most_cosines));
+  return {static_cast<int>(powers[0]), static_cast<int>(powers[1])};
+}
+
 [[noreturn]] void refuse_key(const JsonReader& value) {
   std::vector<std::string> keys{std::string(role_words)};
   std::ranges::copy(keys_of<ColumnMap>(), std::back_inserter(keys));
@@ -113,7 +121,9 @@ ColumnMap read_column_map(const std::string& file, const JsonReader& j) {
     else if (key == "forward")
       map.forward_deg = number_within(value, -360, 360);
     else if (key == "cosine")
-      map.cosine = value.boolean();
+      map.cosines = {0, value.boolean() ? 1 : 0};
+    else if (key == "cosines")
+      map.cosines = read_cosines(value);
     else if (key == "scale")
       map.scale = scale(value);
     else if (key == "skip")

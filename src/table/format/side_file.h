@@ -61,7 +61,17 @@ inline constexpr auto description<ColumnMap> = FieldList{
           "of all angles, else degrees"},
     Field{"forward", "°", if_there(unusual<&ColumnMap::forward_deg>),
           "phi_o − phi_i of the mirror direction, else 180"},
-    Field{"cosine", if_there(unusual<&ColumnMap::cosine>), "values are f cos θ_o"},
+    Field{"cosine", if_there([](const ColumnMap& map) {
+            return map.cosines == CosinePowers{0, 1} ? std::optional(true) : std::nullopt;
+          }),
+          "values are f cos θ_o"},
+    Field{"cosines", if_there([](const ColumnMap& map) {
+            const auto [incident, outgoing] = map.cosines;
+            return incident == 0 && (outgoing == 0 || outgoing == 1)
+                       ? std::nullopt
+                       : std::optional(std::vector<int>{incident, outgoing});
+          }),
+          "powers of cos θ_i and cos θ_o that values are f times"},
     Field{"scale", if_there(unusual<&ColumnMap::scale>), "values times this are f in 1/sr, else 1"},
     Field{"skip", if_there(unusual<&ColumnMap::skip>), "lines at the top that are passed over"}};
 

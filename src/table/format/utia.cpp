@@ -36,20 +36,25 @@ struct Place {
 };
 
 /// Nothing below the last ring.
-std::optional<Place> place(const Direction& d) {
+std::optional<Place> place(const Direction& d, std::size_t step) {
   const double theta = theta_of(d) / degree / kThetaStep;
   if (!(theta <= kThetas - 1 + 1e-9)) return {};
-  const auto t = std::min(static_cast<std::size_t>(theta), kThetas - 2);
+  const auto t = std::min(static_cast<std::size_t>(theta), kThetas - 2) / step * step;
+  const std::size_t above = std::min(t + step, kThetas - 1);
   const double turns = phi_of(d) / degree / 360, phi = (turns - std::floor(turns)) * kPhis;
-  const auto p = static_cast<std::size_t>(phi) % kPhis;
-  return Place{{t, t + 1},
-               {p, (p + 1) % kPhis},
-               std::min(theta - static_cast<double>(t), 1.0),
-               phi - std::floor(phi)};
+  const std::size_t before = std::min(static_cast<std::size_t>(phi), kPhis - 1),
+                    p = before / step * step;
+  return Place{{t, above},
+               {p, (p + step) % kPhis},
+               std::min((theta - static_cast<double>(t)) / static_cast<double>(above - t), 1.0),
+               std::min((phi - static_cast<double>(p)) / static_cast<double>(step), 1.0)};
 }
 
-double between(const std::vector<Values>& values, const DirectionPair& p, std::size_t channel) {
-  const auto in = place(p.wi), out = place(p.wo);
+double between(const std::vector<Values>& values,
+               const DirectionPair& p,
+               std::size_t channel,
+               std::size_t step) {
+  const auto in = place(p.wi, step), out = place(p.wo, step);
   double sum = 0, weight = 0;
   for (unsigned bits = 0; in && out && bits < 16; ++bits) {
     const double w = in->weight(bits & 3U) * out->weight(bits >> 2U);
@@ -147,10 +152,10 @@ void interpret_utia(Table& t, UtiaValues meaning) {
   interpolate_utia(t);
 }
 
-void interpolate_utia(Table& t) {
-  t.between = [values = std::make_shared<const std::vector<Values>>(t.values)](
+void interpolate_utia(Table& t, std::size_t step) {
+  t.between = [values = std::make_shared<const std::vector<Values>>(t.values), step](
                   const DirectionPair& p, std::size_t channel) {
-    return between(*values, p, channel);
+    return between(*values, p, channel, step);
   };
 }
 

@@ -44,7 +44,8 @@ Table read_utia(InputFile&);
 void interpret_utia(Table&, UtiaValues);
 /// Linear between the four angles, φ over the turn; NaN beyond 75°, where other readers extrapolate, and where valid values
 /// carry half of the weight or less.
-void interpolate_utia(Table&);
+/// \param step  2: between every other angle, to see what the distance of the angles does
+void interpolate_utia(Table&, std::size_t step = 1);
 /// f_r; a table with one channel is written as grey.
 void write_utia(const Table&, OutputFile&, const std::string& path);
 

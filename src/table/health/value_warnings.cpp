@@ -11,7 +11,7 @@
 
 #include "base/quantile.h"
 #include "base/text.h"
-#include "table/format/column_map.h"
+#include "table/format/columns_command.h"
 #include "table/format/measured_by.h"
 #include "table/health/health.h"
 #include "table/health/rounding.h"
@@ -25,10 +25,9 @@ namespace {
 using std::numbers::pi;
 constexpr double too_much = 1.05;  ///< light that goes out, over what comes in
 
-/// Command that scales a CSV file; other formats have a unit of their own.
 std::string scaled_by(const Table& t, const char* what, double scale) {
-  return t.format == "csv" ? fmt::format(": {}? (gonio columns FILE --scale {:.7g})", what, scale)
-                           : "";
+  return fmt::format(": {}? ({})", what,
+                     reading_command(t, [&](ColumnMap& map) { map.scale *= scale; }));
 }
 /// What values may be that return so many times the light.
 std::string unit_of(const Table& t, double light) {
@@ -38,14 +37,16 @@ std::string unit_of(const Table& t, double light) {
       note != t.notes.end()) {  // values × R/π
     const double reflectance = only_number(note->second).value_or(1);
     return light < slack * 100
-               ? fmt::format(": in percent of the target? (--reference {:.4g})", reflectance / 100)
+               ? fmt::format(": in percent of the target? (gonio fit {} --reference {:.4g})",
+                             file_word(t), reflectance / 100)
                : "";
   }
   if (light < slack * pi) return scaled_by(t, "a radiance factor", 1 / pi);
   constexpr double dark = 0.03;  // albedo of what is hardly ever measured in percent
   if (light > dark * 100 * pi && light < slack * 100 * pi)
     return scaled_by(t, "a radiance factor in percent", 0.01 / pi);
-  return ": counts? (gonio fit --scale free, or a white standard by --reference)";
+  return fmt::format(": counts? (gonio fit {} --scale free, or a white standard by --reference)",
+                     file_word(t));
 }
 
 /// Least value of each incident direction whose samples all are above 1/π, as a share of the light: no
@@ -87,11 +88,10 @@ std::optional<std::pair<double, double>> bright_everywhere(const Table& t) {
 
 /// Command that leaves a channel out.
 std::string without_channel(const Table& t, std::size_t channel) {
-  if (t.format != "csv") return "";
   std::string others;
   for (std::size_t c = 0; c < t.channels.size(); ++c)
-    if (c != channel) others += fmt::format(" f_{0}=f_{0}", t.channels[c]);
-  return fmt::format(" (gonio columns FILE --map{} leaves it out)", others);
+    if (c != channel) others += " " + shell_word(t.channels[c]);
+  return fmt::format(" (gonio fit {} --channels{} leaves it out)", file_word(t), others);
 }
 
 /// \param divided  by a cosine: a scale says nothing then
@@ -130,31 +130,31 @@ void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& al
   constexpr double next_to_nothing = 5e-4;
   if (whole > 0 && whole < next_to_nothing)
     all.push_back(
-        fmt::format("the table returns {:.2g} of the light: a relative scale? (gonio fit "
+        fmt::format("the table returns {:.2g} of the light: a relative scale? (gonio fit {} "
                     "--scale free fits that, too)",
-                    whole));
+                    whole, file_word(t)));
   if (const auto bright = bright_everywhere(t))
     all.push_back(fmt::format(
         "values at theta_i {:.3g}° are above 1/pi: probably {:.3g} times the light or more{}",
         bright->second, bright->first, unit(bright->first)));
 }
 
-/// Cosines that values may be multiplied by: of θ_i and of θ_o, to these powers.
-struct Cosines {
-  int incident, outgoing;
+/// Cosines that values may be multiplied by.
+struct Cosines : CosinePowers {
   const char* in_words;
-  const char* cure;
 };
-/// The first two, and the next two, keep what exchanging the directions changes; the last two change nothing by it.
-constexpr std::array cosines{
-    Cosines{0, 1, "f cos(theta_o)", " (gonio columns FILE --cosine)"},
-    Cosines{-1, 0, "f/cos(theta_i)", ""},
-    Cosines{1, 0, "f cos(theta_i)",
-            " (in gonio columns FILE --map …, exchange the columns of theta_i and theta_o, and of "
-            "phi_i and phi_o, and add --cosine)"},
-    Cosines{0, -1, "f/cos(theta_o)", ""},
-    Cosines{1, 1, "f cos(theta_i) cos(theta_o)", ""},
-    Cosines{-1, -1, "f/(cos(theta_i) cos(theta_o))", ""}};
+/// The first two, and the next two, keep what exchanging the directions changes, and so do the pairs of their squares; the two
+/// after these change nothing by it.
+constexpr std::array cosines{Cosines{{0, 1}, "f cos(theta_o)"},
+                             Cosines{{-1, 0}, "f/cos(theta_i)"},
+                             Cosines{{1, 0}, "f cos(theta_i)"},
+                             Cosines{{0, -1}, "f/cos(theta_o)"},
+                             Cosines{{0, 2}, "f cos(theta_o)^2"},
+                             Cosines{{-2, 0}, "f/cos(theta_i)^2"},
+                             Cosines{{2, 0}, "f cos(theta_i)^2"},
+                             Cosines{{0, -2}, "f/cos(theta_o)^2"},
+                             Cosines{{1, 1}, "f cos(theta_i) cos(theta_o)"},
+                             Cosines{{-1, -1}, "f/(cos(theta_i) cos(theta_o))"}};
 
 /// Sum of the channels' valid values.
 double value_of_all(const Table& t, const Angles<double>& a, std::size_t i) {
@@ -222,7 +222,8 @@ const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) 
   const Table& t = facts.table();
   const auto sigma = [&] { return facts.noise().sigma.value_or(0); };
   std::vector<double> raw;
-  std::array<std::vector<double>, 2> without;  // of f cos θ_o or f/cos θ_i; of the others
+  std::array<std::vector<double>, 4>
+      without;  // of f cos θ_o or f/cos θ_i; of the others; of their squares
   if (facts.reciprocity().error) {
     const SampleAngles at(t);
     for_each_reciprocal(t, [&](std::size_t i, std::size_t, double a, double b) {
@@ -233,22 +234,28 @@ const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) 
       raw.push_back(reciprocity_error(a, b));
       without[0].push_back(reciprocity_error(a / x.nov, b / x.nol));
       without[1].push_back(reciprocity_error(a / x.nol, b / x.nov));
+      without[2].push_back(reciprocity_error(a / (x.nov * x.nov), b / (x.nol * x.nol)));
+      without[3].push_back(reciprocity_error(a / (x.nol * x.nol), b / (x.nov * x.nov)));
     });
   }
-  const auto cure = [&](const Cosines& c) { return t.format == "csv" ? c.cure : ""; };
+  const auto cure = [&](const Cosines& c) {
+    return reading_command(t, [&](ColumnMap& map) {
+      map.cosines = {map.cosines.incident + c.incident, map.cosines.outgoing + c.outgoing};
+    });
+  };
   constexpr std::size_t few = 8;
   const auto trend = trend_of(t);
   std::size_t first = 0;  // of those that the trend decides between
   if (raw.size() >= few) {
     const double with = median(raw);
-    for (std::size_t k = 0; k < 2; ++k) {
+    for (std::size_t k = 0; k < without.size(); ++k) {
       const double rest = median(without[k]);
       if (!(with > 0.1 && 3 * rest < with && rest < 0.05 + 2 * sigma())) continue;
       const Cosines *one = &cosines[2 * k], *other = one + 1;
       if (trend && trend->distance(*other) < trend->distance(*one)) one = other;
       all.push_back(fmt::format(
           "exchanging the directions changes values by {:.2g} %, without a cosine by {:.2g} %: "
-          "they look like {}{}",
+          "they look like {} ({})",
           100 * with, 100 * rest, one->in_words, cure(*one)));
       return one;
     }
@@ -259,15 +266,15 @@ const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) 
           100 * with));
       return nullptr;
     }
-    first = 4;
+    first = 2 * without.size();
   }
   if (!trend || !(3 * trend->after < trend->before && trend->after < 0.1 + 2 * sigma()))
     return nullptr;
   for (const auto& c : std::span(cosines).subspan(first))
-    if (trend->distance(c) < 0.15) {
-      all.push_back(
-          fmt::format("away from the highlight values change like a cosine: probably they are {}{}",
-                      c.in_words, cure(c)));
+    if (std::abs(c.incident) < 2 && std::abs(c.outgoing) < 2 && trend->distance(c) < 0.15) {
+      all.push_back(fmt::format(
+          "away from the highlight values change like a cosine: probably they are {} ({})",
+          c.in_words, cure(c)));
       return &c;
     }
   return nullptr;
@@ -350,15 +357,28 @@ double scatter(const Table& t) {
   return freedom > few ? std::sqrt(squares / freedom) : std::nan("");
 }
 
+/// Command after which zenith angles are read as elevations, or no longer so.
+std::string turned_by(const Table& t, std::initializer_list<const char*> roles) {
+  return reading_command(t, [&](ColumnMap& map) {
+    for (const char* role : roles) {
+      const std::string column = column_of(map, role);
+      put_column(map, role,
+                 column.starts_with(elevation_mark) ? column.substr(elevation_mark.size())
+                                                    : std::string(elevation_mark) + column);
+    }
+  });
+}
+
 /// Angles counted from the surface put highlights elsewhere, or let them fall towards grazing.
 bool warn_of_elevation(TableFacts& facts, std::vector<std::string>& all) {
   const Table& t = facts.table();
   constexpr std::size_t large = 100'000;
   if (t.format != "csv" || !t.list() || t.size() > large) return false;
   if (highlight_falls(facts)) {
-    all.emplace_back(
+    all.push_back(fmt::format(
         "the highlight falls towards grazing, where those of surfaces rise: are zenith angles "
-        "elevations? (gonio columns FILE --map theta_i=90-COLUMN theta_o=90-COLUMN …)");
+        "elevations? ({})",
+        turned_by(t, {"theta_i", "theta_o"})));
     return true;
   }
   constexpr double less = 1.6, shows = 0.05, widest_deg = 20;
@@ -379,8 +399,8 @@ bool warn_of_elevation(TableFacts& facts, std::vector<std::string>& all) {
   if (!name) return false;
   all.push_back(fmt::format(
       "values follow the half vector far better with 90° less {} in its place: is {} an "
-      "elevation? (gonio columns FILE --map {}=90-COLUMN …)",
-      name, name, name));
+      "elevation? ({})",
+      name, name, turned_by(t, {name})));
   return true;
 }
 

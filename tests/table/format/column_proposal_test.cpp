@@ -116,7 +116,7 @@ TEST(ColumnProposal, CosineCorrectedValuesAndColumnsOfWavelengthsAreRecognised) 
                                              column("ccBRDF", 0, 1)};
   const auto p = propose_columns(corrected);
   ASSERT_TRUE(p.map);
-  EXPECT_TRUE(p.map->cosine);
+  EXPECT_TRUE(p.map->cosines == (CosinePowers{0, 1}));
   EXPECT_TRUE(p.needed);
   const std::vector<ColumnSummary> bands{column("aoi", 0, 75), column("theta_s", 0, 80),
                                          column("390nm", 0, 1), column("400.5nm", 0, 1),
@@ -124,7 +124,7 @@ TEST(ColumnProposal, CosineCorrectedValuesAndColumnsOfWavelengthsAreRecognised) 
   const auto q = propose_columns(bands);
   ASSERT_TRUE(q.map);
   EXPECT_EQ(q.map->columns, (Map{{"theta_i", "aoi"}, {"theta_o", "theta_s"}, {"f_*", "*nm"}}));
-  EXPECT_FALSE(q.map->cosine);
+  EXPECT_FALSE(q.map->cosines == (CosinePowers{0, 1}));
 }
 
 TEST(ColumnProposal, NumbersAsNamesAreWavelengthsWhereBothAnglesHaveOne) {

@@ -12,6 +12,7 @@
 #include "table/format/metadata.h"
 #include "table/health/health.h"
 
+#include <fmt/format.h>
 #include <tbb/global_control.h>
 
 namespace gonio {
@@ -209,7 +210,8 @@ TEST(ColumnMap, IsNamedWhereItIsBroken) {
 TEST(ColumnMap, IsWrittenBesideWhatElseTheSideFileSays) {
   ColumnMap map;
   map.columns = {{"theta_i", "in"}, {"f", "#7"}};
-  map.radians = map.cosine = true;
+  map.radians = true;
+  map.cosines = {0, 1};
   map.forward_deg = 0;
   map.scale = 0.25;
   map.skip = 3;
@@ -219,11 +221,24 @@ TEST(ColumnMap, IsWrittenBesideWhatElseTheSideFileSays) {
   const auto back = column_map("s", text);
   ASSERT_TRUE(back);
   EXPECT_EQ(back->columns, map.columns);
-  EXPECT_TRUE(back->radians && back->cosine);
+  EXPECT_TRUE(back->radians && back->cosines == (CosinePowers{0, 1}));
   EXPECT_EQ(back->forward_deg, 0);
   EXPECT_EQ(back->scale, 0.25);
   EXPECT_EQ(back->skip, 3U);
   EXPECT_FALSE(column_map("s", R"({"schema":"gonio.table/1"})"));
+}
+
+TEST(ColumnMap, SaysAnyPowersOfTheCosines) {
+  ColumnMap map;
+  map.cosines = {1, -2};
+  const std::string text = with_columns("s", "", map);
+  EXPECT_EQ(column_map("s", text)->cosines, (CosinePowers{1, -2})) << text;
+  for (const char* wrong : {"[1]", "[0.5, 0]", "[9, 0]", "true"})
+    EXPECT_THROW(
+        column_map(
+            "s", fmt::format(R"({{"schema":"gonio.table/1","columns":{{"cosines":{}}}}})", wrong)),
+        Error)
+        << wrong;
 }
 
 TEST(CsvFile, ReadsEverySeparatorQuotesAndDecimalCommas) {
@@ -606,7 +621,8 @@ TEST(CsvFile, WarnsOfMoreLightThanArrives) {
   EXPECT_EQ(health_warnings(read(even(0.31))), "");
   Table other = t;
   other.format = "alta";
-  EXPECT_EQ(health_warnings(other).find("--scale"), std::string::npos);
+  EXPECT_NE(health_warnings(other).find("(gonio convert "), std::string::npos)
+      << "other formats become CSV first";
 }
 
 TEST(CsvFile, WarnsOfACosineLeftInTheValues) {

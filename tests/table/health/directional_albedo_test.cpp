@@ -1,6 +1,7 @@
 // The albedo of a table is that of the surface it was taken from, within the error that is said.
 #include "table/health/directional_albedo.h"
 
+#include <array>
 #include <cmath>
 #include <random>
 
@@ -32,7 +33,7 @@ TEST(AlbedoOfATable, IsThatOfTheSurfaceHoweverNarrowItsHighlight) {
     for (const double theta_i : {0.0, 30.0, 60.0}) {
       const auto a = directional_albedo(t, theta_i);
       EXPECT_NEAR(a.albedo[0], 1, 0.02) << alpha << " " << theta_i;
-      EXPECT_LT(a.error, 0.02) << alpha << " " << theta_i;
+      EXPECT_LT(a.error, 0.025) << alpha << " " << theta_i;
     }
   }
 }
@@ -98,6 +99,73 @@ TEST(AlbedoOfATable, OfAListTakesNoiseBelowZeroAndNoMarks) {
     const auto found = directional_albedo(t);
     ASSERT_EQ(found.size(), 2U);
     for (std::size_t k = 0; k < 2; ++k) EXPECT_NEAR(found[k].albedo[0], whole[k].albedo[0], 0.03);
+  }
+}
+
+/// ∫ f cos θ_o dω_o of the model itself, over half vectors that lie densest at the highlight.
+double albedo_of(const BoundModel& model, double theta_i_deg) {
+  constexpr int radii = 600, rays = 128;
+  const Direction wi = direction(theta_i_deg * degree, 0);
+  std::vector<Angles<double>> at;
+  std::vector<double> weight;
+  for (int j = 0; j < rays; ++j)
+    for (int i = 0; i < radii; ++i) {
+      const double x = (i + 0.5) / radii, psi = 2 * M_PI * (j + 0.5) / rays,
+                   theta = M_PI / 2 * x * x * x;
+      const Direction h = direction(theta, psi);
+      const double voh = dot(wi, h);
+      const Direction wo{2 * voh * h.x - wi.x, 2 * voh * h.y - wi.y, 2 * voh * h.z - wi.z};
+      if (!(voh > 0 && wo.z > 0)) continue;
+      at.push_back(angles(DirectionPair{wi, wo}));
+      weight.push_back(4 * voh * wo.z * std::sin(theta) * M_PI / 2 * 3 * x * x / radii * 2 * M_PI /
+                       rays);
+    }
+  const auto f = evaluate(model, at);
+  double sum = 0;
+  for (std::size_t k = 0; k < weight.size(); ++k) sum += weight[k] * f[0][k];
+  return sum;
+}
+
+TEST(AlbedoOfATable, IsWithinItsErrorOfTheModelsOnGridsAndRings) {
+  const char* const ggx = "lambert+ggx/smith_ggx.correlated/schlick";
+  const std::pair<const char*, std::vector<Setting>> models[] = {
+      {"eon", {{"kd", {0.6}}, {"r", {0.8}}}},
+      {ggx, {{"alpha", {0.05}}, {"f0", {0.04}}, {"kd", {0.3}}}},
+      {ggx, {{"alpha", {0.2}}, {"f0", {0.04}}, {"kd", {0.3}}}},
+      {ggx, {{"alpha", {0.4}}, {"f0", {0.9}}, {"kd", {0}}}},
+      {ggx, {{"alpha", {0.8}}, {"f0", {0.9}}, {"kd", {0}}}},
+      {"lambert+gtr/smith_ggx.correlated/schlick",
+       {{"alpha", {0.1}}, {"gamma", {1.2}}, {"f0", {0.3}}, {"kd", {0.05}}}},
+      {"lambert+beckmann/smith_beckmann.correlated/schlick",
+       {{"alpha", {0.3}}, {"f0", {0.04}}, {"kd", {0.05}}}},
+      {"charlie/smith_charlie.correlated/schlick", {{"alpha", {0.4}}, {"f0", {0.5}}}}};
+  for (const auto& [spec, settings] : models) {
+    const BoundModel model = bind_model(spec, settings, 1);
+    std::array<double, 6> truth;
+    for (std::size_t k = 0; k < truth.size(); ++k)
+      truth[k] = albedo_of(model, 15. * static_cast<double>(k));
+    const auto expect = [&](const Table& t, const char* layout) {
+      for (std::size_t k = 0; k < truth.size(); ++k) {
+        const auto a = directional_albedo(t, 15. * static_cast<double>(k));
+        EXPECT_NEAR(a.albedo[0], truth[k], a.error + 1e-3 * truth[k])
+            << layout << " " << spec << " " << 15 * k;
+        EXPECT_LT(a.error, layout == std::string("utia") ? HUGE_VAL : 0.2 * truth[k])
+            << layout << " " << spec << " " << 15 * k;
+      }
+    };
+    Table merl;
+    merl.format = "merl";
+    merl.channels = {"f"};
+    merl.where = merl_grid(Bins::centre);
+    test::put_values(merl, model);
+    expect(merl, "merl");
+    Table utia;
+    utia.format = "utia";
+    utia.channels = {"f"};
+    utia.where = utia_directions();
+    test::put_values(utia, model);
+    interpolate_utia(utia);
+    expect(utia, "utia");
   }
 }
 

@@ -99,7 +99,8 @@ TEST(ValueWarnings, NameTheReferenceOfValuesInPercentOfATarget) {
   for (double& f : t.values[0])
     f *= 100 * M_PI / 0.99;  // what a target of 0.99 is worth, in percent
   take_reference(t, 0.99);
-  EXPECT_TRUE(says(said_of(t, as_it_is), "in percent of the target? (--reference 0.0099)"));
+  EXPECT_TRUE(
+      says(said_of(t, as_it_is), "in percent of the target? (gonio fit FILE --reference 0.0099)"));
   EXPECT_FALSE(says(said_of(t, as_it_is), "--scale"));
 }
 
@@ -111,7 +112,8 @@ TEST(ValueWarnings, SayWhichCosineIsLeftIn) {
   };
   EXPECT_TRUE(says(said(0, 1), "they look like f cos(theta_o) (gonio columns FILE --cosine)"));
   EXPECT_TRUE(says(said(1, 0), "they look like f cos(theta_i)"));
-  EXPECT_TRUE(says(said(-1, 0), "they look like f/cos(theta_i)"));
+  EXPECT_TRUE(
+      says(said(-1, 0), "they look like f/cos(theta_i) (gonio columns FILE --cosines=-1,0)"));
   EXPECT_TRUE(says(said(0, -1), "they look like f/cos(theta_o)"));
   EXPECT_TRUE(says(said(1, 1), "probably they are f cos(theta_i) cos(theta_o)"));
 }
@@ -290,7 +292,7 @@ TEST(ValueWarnings, NameTheOnlyChannelWithAnotherScale) {
     return said_of(t, as_it_is);
   };
   EXPECT_TRUE(says(said({1, 100, 1}), "channel g returns"));
-  EXPECT_TRUE(says(said({1, 100, 1}), "--map f_r=f_r f_b=f_b leaves it out"));
+  EXPECT_TRUE(says(said({1, 100, 1}), "(gonio fit FILE --channels r b leaves it out)"));
   EXPECT_FALSE(says(said({100, 100, 100}), "channel"));
   EXPECT_FALSE(says(said({20, 2, 2}), "channel")) << "a red pigment in other units";
   EXPECT_TRUE(says(said({1, 0, 1}), "no value of channel g is above 0"));
