@@ -254,8 +254,9 @@ TEST(SchlickReport, TheVerdictsAreMadeFromTheFigures) {
   EXPECT_FALSE(said(smooth(), "no error: exact"));
   auto unreal = smooth();
   for (auto& r : unreal.smooth)
-    if (r.form == "fresnel.schlick.ue" && r.name == "IOR 1.1") r.max_abs = 0.9;
-  EXPECT_TRUE(said(unreal, "It is off most at IOR 1.1, by 0.9."));
+    if (r.form == "fresnel.schlick.ue" && r.kind == "dielectric")
+      r.max_abs = r.name == "IOR 1.1" ? 0.9 : r.name == "IOR 1.5" ? 0.05 : r.max_abs;
+  EXPECT_TRUE(said(unreal, "up to IOR 1.5. It is off most at IOR 1.1, by 0.9."));
   auto good = smooth();
   for (auto& r : good.smooth) r.max_abs = r.max_rel = r.eta < 1.2 && r.k == 0 ? 0.2 : 1e-3;
   EXPECT_TRUE(said(good, "near a relative IOR of 1 its error is larger” holds:"));
