@@ -42,8 +42,10 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
                   m.ops_saved < 0 ? fmt::format("{:.2g} × the operations", 1 - m.ops_saved)
                                   : fmt::format("{:.0f} % fewer operations", 100 * m.ops_saved),
                   looked_up ? ", lookups not counted" : "");
-  const auto time = m.speedup < 1 ? fmt::format("{:.3g} × as slow", 1 / m.speedup)
-                                  : fmt::format("{:.3g} × as fast", m.speedup);
+  const auto ratio = fmt::format("{:.3g}", std::max(m.speedup, 1 / m.speedup));
+  const auto time = ratio == "1"    ? std::string("as fast")
+                    : m.speedup < 1 ? ratio + " × as slow"
+                                    : ratio + " × as fast";
   const bool by_time = cost == Cost::time;
   say("{}: {}, {}\n", m.name, by_time ? time : operations, by_time ? operations : time);
   say("  take    {}\n", m.spec);

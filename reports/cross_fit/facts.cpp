@@ -15,10 +15,13 @@ Facts facts(const CrossFitRows& r) {
     for (const auto& p : r.published) all.push_back(p.*of);
     return median(all);
   };
+  std::vector<double> gamma;
+  for (const auto& p : r.published)
+    if (p.gamma_determined) gamma.push_back(p.gamma);
+  if (gamma.empty()) return f;
   const auto longer = std::ranges::count_if(r.published, [](const auto& p) { return p.tail < 2; });
-  f.tails = Facts::Tails{r.published.size(), static_cast<std::size_t>(longer),
-                         middle(&PublishedFit::gamma), middle(&PublishedFit::ggx_log_rms),
-                         middle(&PublishedFit::gtr_log_rms)};
+  f.tails = Facts::Tails{r.published.size(), static_cast<std::size_t>(longer), median(gamma),
+                         middle(&PublishedFit::ggx_log_rms), middle(&PublishedFit::gtr_log_rms)};
   return f;
 }
 

@@ -196,6 +196,11 @@ void lost_energy(Findings& to, const CrossFitRows& r) {
         "Fitted with single scattering, {} whose light meets several facets look {}; their F0 "
         "shifts {}.",
         group.name, looks(most), span(f0, signed_percent)));
+    if (f0.at_bound > 0)
+      to.say(
+          fmt::format("The shift of F0 is known for {} values; the others ended at a bound or "
+                      "were not determined.",
+                      of_all(f0.found.size(), f0.all)));
   }
   const auto all = cases_of(r, {all_orders, "exact"});
   if (!all.empty())
@@ -258,8 +263,16 @@ void published(Findings& to, const CrossFitRows& r) {
            fmt::format("{} materials measured for MERL have a longer tail. Löw and others "
                        "published the fits that say so.",
                        of_all(longer, tails.size())));
-  to.say(fmt::format("Fitted to those, GTR finds a median gamma of {:.2g}, where GGX has 2.",
-                     middle_of(each(r, &PublishedFit::gamma))));
+  std::vector<double> gamma;
+  for (const auto& p : r.published)
+    if (p.gamma_determined) gamma.push_back(p.gamma);
+  const auto below = static_cast<std::size_t>(
+      std::ranges::count_if(r.published, [](const auto& p) { return p.gamma < 2; }));
+  if (!gamma.empty())
+    to.say(
+        fmt::format("GTR fitted to those has a gamma below GGX's 2 for {}. For the {} that "
+                    "determine it the median is {:.3g}.",
+                    of_all(below, r.published.size()), gamma.size(), middle_of(gamma)));
   to.say(
       fmt::format("A free gamma takes the median log-RMS residual of these materials from {:.2g} "
                   "to {:.2g}.",
@@ -274,10 +287,13 @@ void published(Findings& to, const CrossFitRows& r) {
 /// Fits of what was made from the same forms, which ought to give everything back.
 void trust(Findings& to, const CrossFitRows& r) {
   double roughness = 0, f0 = 0, error = 0;
-  std::size_t own = 0, lost = 0, bounds = 0, values = 0;
+  std::size_t own = 0, lost = 0, bounds = 0, values = 0, loose = 0;
   for (const auto& c : r.cases) {
     lost += !c.converged;
-    for (const auto& v : c.values) ++values, bounds += !c.is_determined(v);
+    for (const auto& v : c.values) {
+      ++values, bounds += !c.is_determined(v);
+      loose += v.status == ParameterStatus::unbounded;
+    }
     if (c.kind != "exact") continue;
     if (c.truth == all_orders) {
       for (const auto& v : c.values)
@@ -300,9 +316,14 @@ void trust(Findings& to, const CrossFitRows& r) {
                    : fmt::format("Of {} fits {} did not converge.", r.cases.size(), lost));
   if (bounds > 0)
     to.say(
-        fmt::format("Of {} fitted parameters {} ended at a bound or were not determined; their "
+        fmt::format("{} of {} fitted parameters ended at a bound or were not determined; their "
                     "shift is unknown.",
-                    values, bounds));
+                    bounds, values));
+  if (loose > 0)
+    to.say(fmt::format(
+        "{} more are the best values of models that miss the truth by too much to bound "
+        "them: their shifts have no error.",
+        loose));
   if (error > 0)
     to.say(
         fmt::format("The random walks' noise shifts a fitted roughness by at most {:.1g}.", error));

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
@@ -156,14 +157,20 @@ void of_single_lights(Findings& to, const EnergyRows& r) {
     const auto c = std::ranges::find(r.compensations, w.id, &CompensationCost::id);
     return c == r.compensations.end() ? HUGE_VAL : c->rms;
   };
+  const auto worst = [&](const Way& w) {
+    return std::ranges::find(r.compensations, w.id, &CompensationCost::id)->worst;
+  };
   if (ways[0].left == ways[1].left || rms(ways[0]) == rms(ways[1])) return;
   const auto& by_light = ways[ways[0].left < ways[1].left ? 0 : 1];
   const auto& by_albedo = ways[rms(ways[0]) < rms(ways[1]) ? 0 : 1];
   to.say(by_light.id == by_albedo.id
              ? fmt::format("Where they pay, {} leaves less at most, as by albedos.", by_light.name)
-             : fmt::format("Where they pay, {} leaves less at most. By albedos {} does: these are "
-                           "light from all sides, and one light shows the lobe's shape.",
-                           by_light.name, by_albedo.name));
+             : fmt::format("Where they pay, {} leaves less at most. Over albedos, which are light "
+                           "from all sides, {}'s RMS error is smaller{}.",
+                           by_light.name, by_albedo.name,
+                           worst(by_light) < worst(by_albedo)
+                               ? fmt::format(", but {}'s largest error is", by_light.name)
+                               : std::string()));
 }
 
 /// Error of the split sum, where it shows most.
@@ -171,9 +178,9 @@ void of_split_sum(Findings& to, const EnergyRows& r) {
   for (const auto& t : r.light.tables)
     if (t.size == 32 && t.stored == "half")
       to.say(
-          fmt::format("A split-sum table of 32 × 32 texels in half gives A + B to {:.2g} RMS. "
-                      "Beyond the outermost centres, at grazing angles, it is off by up to "
-                      "{:.2g}.",
+          fmt::format("Over every NoV and roughness, a split-sum table of 32 × 32 texels "
+                      "in half gives A + B to {:.2g} RMS. Beyond the outermost centres, at grazing "
+                      "angles, it is off by up to {:.2g}.",
                       t.lookup_rms, t.lookup));
   const auto most = [&](double f0, double nov) {
     const LitError* worst = nullptr;
@@ -210,28 +217,29 @@ void of_split_sum(Findings& to, const EnergyRows& r) {
 void no_light_is_made(Findings& to, const EnergyRows& r) {
   if (r.forms.empty()) return;
   const EnergyForm* most = nullptr;
-  std::size_t makers = 0;
-  double largest = 0;  // of those that make none
+  std::map<std::string, bool> makes;  // by form: one whose tail was varied is one
+  double largest = 0;                 // of those that make none
   for (const auto& f : r.forms) {
     const double albedo = brightest(f).albedo;
-    if (!makes_light(f)) {
+    makes[f.model.empty() ? std::string(f.masking) : std::string(f.model)] |= makes_light(f);
+    if (!makes_light(f))
       largest = std::max(largest, albedo);
-      continue;
-    }
-    ++makers;
-    if (!most || albedo > brightest(*most).albedo) most = &f;
+    else if (!most || albedo > brightest(*most).albedo)
+      most = &f;
   }
+  const auto makers = static_cast<std::size_t>(
+      std::ranges::count(makes, true, &std::pair<const std::string, bool>::second));
   std::string words;
   if (most) {
     const auto& at = brightest(*most);
-    words = fmt::format(" Most does {}: {:.3g} times as much at {}.", words_for(*most), at.albedo,
+    words = fmt::format(" Worst: {}, {:.3g} times as much at {}.", words_for(*most), at.albedo,
                         place(at.roughness, at.mu));
   }
   to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
-           fmt::format("{} forms exceed it", of_all(makers, r.forms.size())),
-           fmt::format("of what is shipped, {} forms reflect more than comes in somewhere.{} The "
-                       "others reflect {:.4f} of it at most.",
-                       of_all(makers, r.forms.size()), words, largest));
+           fmt::format("{} forms exceed it", of_all(makers, makes.size())),
+           fmt::format("{} forms reflect more light than arrives somewhere.{} The others reflect "
+                       "{:.4f} of it at most.",
+                       of_all(makers, makes.size()), words, largest));
 }
 
 void energy_does_not_stay(Findings& to, const EnergyRows& r) {
@@ -261,10 +269,10 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",
            "Burley 2012, Physically-Based Shading at Disney", verdict_on_small(most),
            fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
-           fmt::format("as it ships it is furthest from its own Smith masking at {}. Before "
-                       "Fresnel the coat there reflects {} instead of {}.",
-                       place(row.roughness, row.mu), percent(row.albedo),
-                       percent(smith->rows[at].albedo)));
+           fmt::format(
+               "largest error at {}. Before Fresnel the coat reflects {}; with its own Smith "
+               "masking, {}.",
+               place(row.roughness, row.mu), percent(row.albedo), percent(smith->rows[at].albedo)));
 }
 
 void clamped_at_2048(Findings& to, const EnergyRows& r) {
@@ -298,10 +306,9 @@ void deviation_of_slopes(Findings& to, const EnergyRows& r) {
   to.judge("alpha is the standard deviation of the slopes", "",
            verdict(growth < 1e-3 && std::abs(last.deviation - 1) < 1e-3),
            fmt::format("{:.2f} α for Beckmann, none for GGX", r.claims.beckmann_deviation),
-           fmt::format("along an axis it is {:.4f} α for Beckmann. GGX has none: of its slopes up "
-                       "to {:g} α it is {:.3g} α, and grows with every steeper one. Up to {:g} α "
-                       "it is {:.3g} α.",
-                       r.claims.beckmann_deviation, first.most, first.deviation, last.most,
+           fmt::format("Beckmann: {:.4f} α. GGX has no standard deviation: {:.3g} α over slopes up "
+                       "to {:g} α. Up to {:g} α it is {:.3g} α, growing without limit.",
+                       r.claims.beckmann_deviation, first.deviation, first.most, last.most,
                        last.deviation));
 }
 

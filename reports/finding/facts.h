@@ -23,8 +23,8 @@ struct Facts {
     std::optional<double> model_ns{};
   };
   std::optional<Setting> setting{};
-  /// Time of a sample in float [ns]: of a term in columns that stay in cache; of a whole model, fused, in such columns, and in columns
-  /// that do not.
+  /// Time of a sample in float [ns]: of a term in columns that stay in cache; of a whole model, fused, in such columns, and composed of its
+  /// terms in columns that do not.
   struct Time {
     std::string id;  ///< of the term, or the model's spec
     double ns, spread;
@@ -82,7 +82,7 @@ struct Facts {
   /// Measured materials by the tail of their highlight, (1 + …)^−γ, as others published it, each fitted with GGX and with GTR.
   struct Tails {
     std::size_t materials, longer;    ///< longer: γ below 2, which is GGX's
-    double gamma;                     ///< that GTR finds, median
+    double gamma;                     ///< that GTR finds, median of those that it determines
     double ggx_log_rms, gtr_log_rms;  ///< RMS of ln f that the fits leave, medians
   };
   std::optional<Tails> tails{};

@@ -7,6 +7,11 @@
 #include <fmt/ranges.h>
 
 namespace gonio {
+namespace {
+
+constexpr double least_read = 1e-4;  ///< below it two digits would need a power
+
+}  // namespace
 
 std::string percent(double share, int digits) {
   const double y = 100 * std::abs(share);
@@ -16,16 +21,21 @@ std::string percent(double share, int digits) {
 }
 
 std::string short_text(double x) {
-  constexpr double least = 1e-4;  // below it two digits would need a power
-  if (x > 0 && x < least) return "under 0.0001";
+  if (x > 0 && x < least_read) return "under 0.0001";
   return x < 9.95 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x);
 }
 std::string rounded_up(double x, int digits) {
+  constexpr double own_rounding = 1e-12;
+  if (std::isfinite(x) && x > std::pow(10, digits))
+    return fmt::format("{:.0f}", std::ceil(x * (1 - own_rounding)));
   const auto text = fmt::format("{:.{}g}", x, digits);
   const double read = std::stod(text);
-  if (!std::isfinite(x) || x == 0 || read >= x) return text;
+  if (!std::isfinite(x) || x == 0 || read >= x * (1 - own_rounding)) return text;
   const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) + 1 - digits);
   return fmt::format("{:.{}g}", read + unit, digits);
+}
+std::string at_most(double x, int digits) {
+  return "≤ " + rounded_up(std::max(x, x > 0 ? least_read : x), digits);
 }
 std::string number_or_none(std::size_t n) {
   return n == 0 ? "none" : fmt::format("{}", n);

@@ -17,6 +17,8 @@ std::string percent(double share, int digits = 3);
 std::string short_text(double x);
 /// A number to so many digits, never below it: "0.004" of 0.00391.  A limit from which on something holds stays one where it is read.
 std::string rounded_up(double, int digits = 2);
+/// "≤ 2.5" of 2.41: a bound as it is read, never below the number; of what is smaller "≤ 0.0001".
+std::string at_most(double, int digits = 2);
 /// "2", "none"
 std::string number_or_none(std::size_t);
 /// "2 of 39", "none of 100"

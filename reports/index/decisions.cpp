@@ -64,13 +64,17 @@ std::string short_number(double x) {
 std::string delta(double x) {
   return "ΔE " + short_number(x);
 }
+/// "ΔE ≤ 2.5": a bound, never below the number.
+std::string delta_at_most(double x) {
+  return "ΔE " + at_most(x);
+}
 /// Nothing is left by what is exact, but for what its integral is known to.
 bool is_exact(const Candidate& c) {
   return c.error < 5e-3;
 }
 
 /// Cost of the cheap form.
-constexpr std::string_view no_more = "none (the cheap form)";
+constexpr std::string_view no_more = "none (the usual shortcut)";
 
 /// "0.10 ns", "7.7 ns", "13 ns": one rounding, so that times beside each other agree.
 std::string ns_text(double ns) {
@@ -89,7 +93,7 @@ std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::
   return fmt::format("time is short: {} saves {}, {}", name_of_form(cheaper.form),
                      ns_text(more(cheaper, taken).ns), left);
 }
-/// Aside on the cost, where both stand in a whole model: that it vanishes where memory is the limit.
+/// Aside on the cost, where both stand in a whole model, composed of its terms: that it vanishes where memory is the limit.
 std::string streaming_aside(const Facts& f, std::string_view taken, std::string_view cheap) {
   const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
   if (!a || !b) return {};
@@ -130,13 +134,14 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   const auto& t = *f.tails;
   const auto cheap = candidate(ggx->id, 0, *ggx), other = candidate(gtr->id, 0, *gtr);
   const auto factor = [](double log_rms) { return fmt::format("×/÷ {:.3g}", std::exp(log_rms)); };
-  to.push_back({"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
-                fmt::format("typical factor {} beside published fits: {} measured materials have a "
-                            "longer tail",
-                            factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
-                std::string(no_more),
-                fmt::format("γ is fitted (median {:.2g}): GTR, {}, {}", t.gamma,
-                            factor(t.gtr_log_rms), cost_text(other, cheap))});
+  to.push_back(
+      {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
+       fmt::format("typical factor {} beside published fits, by which {} measured materials "
+                   "have a longer tail",
+                   factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
+       std::string(no_more),
+       fmt::format("γ is fitted (median {:.2g}, where it is determined): GTR, {}, {}", t.gamma,
+                   factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
 // --- Fresnel ---
@@ -196,23 +201,30 @@ Candidates fresnel_candidates(const Facts& f,
 std::string seen_side_by_side(const Facts& f,
                               std::string_view kind,
                               const std::vector<Shown>& materials) {
-  std::vector<std::pair<std::string, std::vector<std::string>>> by_form;  // no form: nothing helps
+  struct Helps {
+    std::string form;  ///< none: nothing helps
+    double error = 0;  ///< the greatest that it leaves
+    std::vector<std::string> materials{};
+  };
+  std::vector<Helps> by_form;
   for (const auto& m : materials) {
     if (m.delta_e <= just_seen) continue;
     const auto all = fresnel_candidates(f, kind, {m});
     const auto* better = choose(all, schlick, just_seen);
     const auto form = better && better->error <= just_seen ? better->form : std::string();
-    auto at = std::ranges::find(by_form, form, [](const auto& x) { return x.first; });
-    if (at == by_form.end()) at = by_form.insert(at, {form, {}});
-    at->second.push_back(material_text(m.material));
+    auto at = std::ranges::find(by_form, form, &Helps::form);
+    if (at == by_form.end()) at = by_form.insert(at, {form});
+    if (better) at->error = std::max(at->error, better->error);
+    at->materials.push_back(material_text(m.material));
   }
   std::vector<std::string> parts;
-  for (const auto& [form, seen] : by_form) {
-    const auto what = form.empty()
-                          ? (kind == "metal" ? "nothing but its spectrum" : "exact Fresnel")
-                          : in_text(form);
-    parts.push_back(fmt::format("{}{}: {}", list_text(seen, " or "),
-                                parts.empty() ? " beside a photograph" : "", what));
+  for (const auto& [form, error, seen] : by_form) {
+    const auto where = parts.empty() ? " next to a photograph" : "";
+    const auto who = list_text(seen, " or ") + where;
+    parts.push_back(!form.empty()
+                        ? fmt::format("{}: {}, {}", who, in_text(form), delta_at_most(error))
+                    : kind == "metal" ? who + " needs its full spectrum"
+                                      : who + ": exact Fresnel");
   }
   return fmt::format("{}", fmt::join(parts, "; "));
 }
@@ -240,18 +252,17 @@ void fresnel_of(std::vector<Decision>& to,
       std::ranges::find(materials, kind == "metal" ? "iron" : "IOR 1.5", &Shown::material);
   const auto& told = usual == materials.end() ? *worst : *usual;
   if (taken == cheap) {
-    d.error = fmt::format("ΔE ≤ {}", short_number(taken->error));
+    d.error = delta_at_most(taken->error);
     d.unless = seen_side_by_side(f, kind, materials);
   } else {
     d.error = fmt::format("{} (Schlick: {} for {})",
-                          is_exact(*taken) ? "none" : "ΔE ≤ " + short_number(taken->error),
+                          is_exact(*taken) ? "none" : delta_at_most(taken->error),
                           delta(told.delta_e), material_text(told.material));
     const double head_on = std::ranges::max(materials, {}, &Shown::head_on).head_on;
     if (is_clearly_cheaper(*cheap, *taken))
-      d.unless =
-          head_on <= just_seen
-              ? fmt::format("it is seen only head on: Schlick, ΔE ≤ {}", short_number(head_on))
-              : cheaper_text(*cheap, *taken, "ΔE ≤ " + short_number(cheap->error));
+      d.unless = head_on <= just_seen
+                     ? "it is seen only head on: Schlick, " + delta_at_most(head_on)
+                     : cheaper_text(*cheap, *taken, delta_at_most(cheap->error));
   }
   if (d.cost.starts_with('+'))
     d.cost += streaming_aside(f, fmt::format("ggx/smith_ggx.correlated/{}", short_id(d.take_id)),
@@ -324,19 +335,19 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
     return compensated(*scattering_of(f, c.form, bright, of_image_light), *nothing)->from;
   };
   const auto* other = nearest_cheaper(all, *taken);
-  auto unless = fmt::format("F0 is {:g}: one bounce, ΔE ≤ {}", plastic,
-                            short_number(std::ranges::max(of_plastic->delta_e)));
+  auto unless = fmt::format("F0 is {:g}: one bounce, {}", plastic,
+                            delta_at_most(std::ranges::max(of_plastic->delta_e)));
   if (const auto* way = scattering_of(f, taken->form, plastic, of_image_light))
     if (const auto pays = compensated(*way, *of_plastic))
       unless = fmt::format("F0 is {:g}: from roughness {:g} on", plastic, pays->from);
   if (other && other->form != single)
-    unless += fmt::format("; time is short: {}, ΔE ≤ {}", name_of_form(other->form),
-                          short_number(other->error));
+    unless += fmt::format("; time is short: {}, {}", name_of_form(other->form),
+                          delta_at_most(other->error));
   Decision d{fmt::format("Multiple scattering under {} (of bright metal, F0 {:g})",
                          of_image_light ? "image-based light" : "single lights", bright),
              "None",
              "scattering." + taken->form,
-             fmt::format("ΔE ≤ {}", short_number(taken->error)),
+             delta_at_most(taken->error),
              std::string(no_more),
              std::move(unless)};
   if (taken->form != single) {
@@ -344,8 +355,8 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), from(*taken));
     d.error += fmt::format(" (one bounce: {}{})", short_number(without),
                            taken->error > side_by_side ? "; no form leaves less" : "");
-    d.cost = fmt::format("+{} on {} a call (other times are of columns)", ns_text(taken->ns),
-                         ns_text(costs->without_ns));
+    d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
+                         ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
   }
   to.push_back(std::move(d));
 }
@@ -358,13 +369,15 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
   // A sphere shows its middle head on, and most of itself from the side.
   to.push_back(
       {"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
-       s.head_on && s.from_side ? fmt::format("mean ΔE ≤ {} head on, {} at 60°",
-                                              short_number(*s.head_on), short_number(*s.from_side))
+       s.head_on && s.from_side ? fmt::format("mean ΔE {} head on, {} at 60°", at_most(*s.head_on),
+                                              at_most(*s.from_side))
                                 : fmt::format("RMS {:.1g} of E", s.rms),
-       s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
-       s.grazing ? fmt::format("rims are looked at: integrate, at cosine 0.1 the mean ΔE is ≤ {}",
-                               short_number(*s.grazing))
-                 : ""});
+       s.ns ? fmt::format("{} a pixel, in all", ns_text(*s.ns)) : "one look-up",
+       s.grazing
+           ? fmt::format("rims are looked at: integrate; the split sum's mean ΔE reaches {} at "
+                         "cosine 0.1",
+                         short_number(*s.grazing))
+           : ""});
 }
 
 /// Diffuse terms by how they look at equal albedo: matte surfaces beside EON, and what lies below a lobe beside EON coupled by albedos.
@@ -399,7 +412,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   Decision d{below_lobe ? "Diffuse below a lobe (F0 0.04)" : "Diffuse of matte surfaces",
              name_of_form(taken->form),
              taken->form,
-             is_exact(*taken) ? "none" : "ΔE ≤ " + short_number(taken->error),
+             is_exact(*taken) ? "none" : delta_at_most(taken->error),
              cost_text(*taken, cheap),
              ""};
   if (taken->form != cheap_id && own)
@@ -410,8 +423,8 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
                                         short_number(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("more light may be made: {}, ΔE ≤ {}", in_text(nearer->form),
-                           short_number(nearer->error));
+    d.unless = fmt::format("more light may be made: {}, {}", in_text(nearer->form),
+                           delta_at_most(nearer->error));
   else if (!below_lobe && taken->form != cheap_id)
     d.unless = "the surface is smooth: Lambert";
   to.push_back(std::move(d));
@@ -441,9 +454,9 @@ void precision(std::vector<Decision>& to, const Facts& f) {
   }
   to.push_back({"Precision: D V F NoL of GGX in half",
                 fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
-                fmt::format("≤ {}, up to {:.0f}° of both (a search found no more)",
+                fmt::format("≤ {} for light and view up to {:.0f}° (search, not proof)",
                             percent(half->tolerance, 1), half->zenith_deg),
-                fmt::format("roughness below {} (looks that rough)",
+                fmt::format("smoother surfaces render as roughness {}",
                             rounded_up(std::sqrt(*half->safe_from))),
                 fmt::format("only D is in half: α clamped at {}", rounded_up(*own->safe_from))});
 }

@@ -7,16 +7,12 @@
 #include <string_view>
 #include <vector>
 
+#include "image/colour_difference.h"
 #include "reports/finding/facts.h"
 #include "reports/finding/names.h"
 
 namespace gonio {
 
-/// ΔE2000 up to which nobody sees a difference, even side by side: the unit that CIEDE2000 is scaled to.  [CIE 142-2001]
-inline constexpr double just_seen = 1;
-/// ΔE2000 up to which a difference is seen side by side alone, taken from what observers just saw in CIELAB.
-///                                                  [Mahy, Van Eycken and Oosterlinck 1994]
-inline constexpr double side_by_side = 2.3;
 /// Share of light that a white diffuse term may give back at most: its own, and what an integral is known to.
 inline constexpr double no_light_made = 1.001;
 /// RMS error of G₂ up to which a masking form is as good as exact.

@@ -194,7 +194,8 @@ Part lead(const ReportIndex& i) {
   std::string text =
       "The error that each shortcut leaves against exact Fresnel, exact Smith masking and all "
       "bounces of light. "
-      "The cost is the time that one float sample takes beyond the cheapest form";
+      "The cost is the time that one float sample takes beyond the usual shortcut: Schlick's k, "
+      "Schlick's Fresnel, GGX, one bounce, Lambert";
   if (m && m->model_ns)
     text += fmt::format("; a whole GGX highlight takes {} ns", significant(*m->model_ns, 2));
   text += m ? fmt::format(". Measured on {} with {} from cache, {} setting.",
@@ -320,20 +321,25 @@ std::string index_page_html(const ReportIndex& i) {
   out.sections.push_back(
       {"What stands behind a figure",
        "",
-       {Points{{"A form is taken if it is the cheapest of those whose error does not show. Among "
-                "forms that take the same measured time, the nearest is taken, or the cheap "
-                "form itself.",
-                "Colours are those of a rough surface under even light, beside a perfect diffuser "
-                "in D65, without a tone map. A metal's true colour is that of its spectrum; three "
-                "wavelengths are 650, 550 and 450 nm.",
-                "Masking is compared with height-correlated Smith for GGX: RMS of G₂ over both "
-                "cosines from 0.05 to 1 and over roughness.",
-                "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on: image-based "
-                "light with transport between the facets under even light, single lights with "
-                "random walks on a ball lit from 30° and from 120° to the view.",
-                "Times are medians over several processes on this machine. A difference counts "
-                "where each of them finds it, above its spread and 3 % of the time.",
-                "Compensations are timed in one process, one light and view at a time."}}},
+       {Points{
+           {fmt::format("The cheapest form is taken whose error is small: up to ΔE2000 {}, or for "
+                        "masking up to RMS {} of G₂. Where every form leaves more, the nearest is "
+                        "taken.",
+                        plain(side_by_side), plain(small_masking_error)),
+            "Among forms that take the same measured time, the nearest is taken, or the usual "
+            "shortcut itself. GGX, the split sum and half are judged by no threshold: they are "
+            "what people ship.",
+            "Colours are those of a rough surface under even light, beside a perfect diffuser "
+            "in D65, without a tone map. A metal's true colour is that of its spectrum; three "
+            "wavelengths are 650, 550 and 450 nm.",
+            "Masking is compared with height-correlated Smith for GGX: RMS of G₂ over both "
+            "cosines from 0.05 to 1 and over roughness.",
+            "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on: image-based "
+            "light with transport between the facets under even light, single lights with "
+            "random walks on a ball lit from 30° and from 120° to the view.",
+            "Times are medians over several processes on this machine. A difference counts "
+            "where each of them finds it, above its spread and 3 % of the time.",
+            "Compensations are timed in one process, one light and view at a time."}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;
   out.setting = fmt::format(

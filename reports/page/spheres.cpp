@@ -6,6 +6,7 @@
 
 #include "base/base64.h"
 #include "base/text.h"
+#include "image/colour_difference.h"
 #include "image/png.h"
 #include "reports/page/numbers.h"
 
@@ -15,13 +16,13 @@ namespace gonio::page {
 namespace {
 
 using Rgb = std::array<unsigned char, 3>;
-constexpr Rgb no_difference{0xe9, 0xe7, 0xe0}, hardly_seen{0xa9, 0x8f, 0xc4},
-    seen{0xf0, 0xa8, 0x68}, most_seen{0xb3, 0x47, 0x0b};
+constexpr Rgb no_difference{0xe9, 0xe7, 0xe0}, at_limit{0xa9, 0x8f, 0xc4}, beyond{0xf0, 0xa8, 0x68},
+    most{0xb3, 0x47, 0x0b};
 constexpr unsigned not_known = 254, beside = 255;
 
 Rgb colour_of(double x, const DifferenceScale& s) {
   const bool low = x <= s.limit;
-  const auto &a = low ? no_difference : seen, &b = low ? hardly_seen : most_seen;
+  const auto &a = low ? no_difference : beyond, &b = low ? at_limit : most;
   const double part = std::clamp(low ? x / s.limit : (x - s.limit) / (s.max - s.limit), 0.0, 1.0);
   Rgb c{};
   for (std::size_t k = 0; k < 3; ++k)
@@ -67,11 +68,11 @@ std::string sphere_figure(std::string_view caption,
 
 std::string sphere_keys(const DifferenceScale& s) {
   return fmt::format(
-      R"(<p class="small keys">{}{}{}{}{}</p>)", key(no_difference, "no difference"),
-      key(hardly_seen, fmt::format("ΔE2000 {}, hardly seen", plain(s.limit))),
-      key(seen, fmt::format("above {}, seen side by side", plain(s.limit))),
-      key(most_seen, plain(s.max) + " or more"),
-      s.hatched ? R"(<span><span class="step hatched"></span>the table has no value</span>)" : "");
+      R"(<p class="small keys">{}{}{}{}{}<span>ΔE2000 up to {} nobody sees; up to {} only side by side</span></p>)",
+      key(no_difference, "no difference"), key(at_limit, fmt::format("ΔE2000 {}", plain(s.limit))),
+      key(beyond, fmt::format("above {}", plain(s.limit))), key(most, plain(s.max) + " or more"),
+      s.hatched ? R"(<span><span class="step hatched"></span>the table has no value</span>)" : "",
+      plain(just_seen), plain(side_by_side));
 }
 
 }  // namespace gonio::page

@@ -9,10 +9,10 @@
 
 namespace gonio::page {
 
-/// Course of colours over ΔE2000: one to what is hardly seen, another from there to the largest.
+/// Course of colours over ΔE2000: one up to a limit, another from there to the largest.
 struct DifferenceScale {
   double steps;       ///< that a byte of the differences has to ΔE2000 1
-  double limit, max;  ///< hardly seen; the largest that is told apart
+  double limit, max;  ///< where the course changes; the largest that has a colour of its own
   bool hatched;       ///< 254 is a pixel that is not known
 };
 /// PNG in base64 of differences.  \param bytes  one a pixel, in base64; 255 is beside what is shown: black

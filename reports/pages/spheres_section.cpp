@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "image/colour_difference.h"
 #include "reports/page/numbers.h"
 #include "reports/page/spheres.h"
 
@@ -14,10 +15,10 @@ namespace gonio::page {
 namespace {
 
 using Lights = std::vector<const SpheresUnderLight*>;
-constexpr double hardly_seen = 1, told_apart = 3;
+constexpr double told_apart = 3;
 
 DifferenceScale scale_of(const Lights& shown) {
-  return {ModelSphere::difference_steps, hardly_seen, 10,
+  return {ModelSphere::difference_steps, just_seen, 10,
           std::ranges::any_of(shown, [](const auto* l) { return l->covered < 1; })};
 }
 /// The light under which a model is farthest from the table.
@@ -55,7 +56,7 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
                         ? std::string()
                         : fmt::format(" The table covers {}{} of what light reaches.",
                                       from == to ? "" : from + " to ", to);
-  if (tail <= hardly_seen)
+  if (tail <= just_seen)
     return fmt::format(
         "{} looks like the table {}: 95\u202f% of the pixels differ by less than ΔE2000 {}.{}",
         begin,
@@ -73,12 +74,12 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
                                  "{}: by itself it puts 95\u202f% within {}.",
                                  name.empty() ? "model" : name, delta_e_text(most.spacing_p95))
                            : std::string();
-  if (most.median > hardly_seen && most.spacing_median > 0.5 * most.median)
+  if (most.median > just_seen && most.spacing_median > 0.5 * most.median)
     return fmt::format(
         "The table's samples lie too far apart to tell whether {} looks like it. {}{}{}", who, half,
         spacing, part);
   return fmt::format("{} {}. {}{}{}", begin,
-                     most.median <= hardly_seen  ? "looks almost like the table"
+                     most.median <= just_seen    ? "looks almost like the table"
                      : most.median <= told_apart ? "shows in the table"
                                                  : "looks different from the table",
                      half, spacing, part);

@@ -31,6 +31,10 @@ std::string delta_text(double error) {
 double saved(const SceneRow& r) {
   return 1 - r.ns_float / r.ns_present_float;
 }
+/// "16 %" of 0.1655: a share that is reached.
+std::string at_least(double share) {
+  return fmt::format("{:.0f}\u00a0%", std::floor(100 * share));
+}
 /// Material as it stands in a sentence.
 std::string material_text(const std::string& material) {
   return material == "everything needed" ? "the material that needs everything" : material;
@@ -72,9 +76,9 @@ void savings(Findings& to, const ScenesRows& r) {
   const auto& most = *std::ranges::max_element(held, {}, saved);
   const double middle = all[all.size() / 2];
   to.say(fmt::format(
-      "At {}, plans save at least {} of a float shader's time in half of the scenes, and {} for "
-      "{}. {}.",
-      no_difference, percent(middle, 2), percent(all.back(), 2), scene_text(most),
+      "At {}, plans save at least {} of a float shader's time in half of the {} scenes whose plans "
+      "hold, and {} for {}. {}.",
+      no_difference, at_least(middle), held.size(), percent(all.back(), 2), scene_text(most),
       none.empty() ? fmt::format("The least is saved for {}", scene_text(least))
                    : fmt::format("As good as nothing can be saved for {}", scenes_text(none))));
   for (const bool by_table : {true, false}) {
@@ -94,7 +98,7 @@ void savings(Findings& to, const ScenesRows& r) {
   to.headline = fmt::format(
       "Leaving out what nobody sees saves {} or more of a shader's time in half of {} scenes, and "
       "up to {}.",
-      percent(middle, 2), held.size(), percent(all.back(), 2));
+      at_least(middle), held.size(), percent(all.back(), 2));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

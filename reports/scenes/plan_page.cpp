@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 
 #include "reports/finding/words.h"
 #include "reports/page/numbers.h"
@@ -54,66 +55,121 @@ std::string kept_words(const scene::Forms& forms) {
 
 /// How the time changes: "6.3 × as fast", "18 × as slow".
 std::string speed(double ratio) {
-  return ratio < 1 ? times(1 / ratio) + " as slow" : times(ratio) + " as fast";
+  const auto by = times(std::max(ratio, 1 / ratio));
+  return by == times(1) ? "as fast" : by + (ratio < 1 ? " as slow" : " as fast");
 }
 
-/// How far the plan was found to be off, in the material that differs most.
-std::string found(const scene::Plan& p, std::string_view unit) {
-  const auto upper = [](const scene::MaterialPlan& m) {
-    return m.bounded ? m.checked.upper : m.checked.quantile;
-  };
-  const auto& far = *std::ranges::max_element(p.materials, {}, upper);
-  const auto& worst = *std::ranges::max_element(
-      p.materials, {}, [](const scene::MaterialPlan& m) { return m.checked.worst; });
+/// A bound as it stands in a sentence, without its sign.
+std::string bound_text(double x, int digits = 2) {
+  return at_most(x, digits).substr(std::string_view("≤ ").size());
+}
+double error_of(const scene::MaterialPlan& m) {
+  return m.bounded ? m.checked.upper : m.checked.quantile;
+}
+const scene::MaterialPlan* farthest(const scene::Plan& p, bool bounded) {
+  const scene::MaterialPlan* far = nullptr;
+  for (const auto& m : p.materials)
+    if (m.bounded == bounded && (!far || error_of(m) > error_of(*far))) far = &m;
+  return far;
+}
+
+/// How far the plan was found to be off, in the materials that differ most.
+void say_errors(std::vector<std::string>& out, const scene::Plan& p, const std::string& unit) {
+  const auto most = percent(p.tolerance.quantile);
   const auto of = [&](const scene::MaterialPlan& m) {
     return p.materials.size() == 1 ? std::string() : ", of " + m.name;
   };
-  const auto beside = far.bounded
-                          ? std::string()
-                          : fmt::format(" from {}", scene::reference_in_words(far.reference));
-  return fmt::format(
-      "At {} of the fresh points the plan differs{} by {}{}{}{}; the worst point "
-      "differs by {}{}.{}",
-      percent(p.tolerance.quantile), beside, far.bounded ? "at most " : "", unit,
-      rounded_up(upper(far), p.holds ? 2 : 3), of(far), significant(worst.checked.worst, 2),
-      worst.name == far.name ? "" : of(worst),
-      far.bounded ? "" : " No walk is known of this lobe, so that is no bound.");
+  if (const auto* m = farthest(p, true)) {
+    const auto& worst = *std::ranges::max_element(
+        p.materials, {}, [](const auto& each) { return each.bounded ? each.checked.worst : -1; });
+    out.push_back(fmt::format(
+        "At {} of the fresh points the plan differs by at most {}{}{}; the worst point differs by "
+        "{}{}.",
+        most, unit, bound_text(error_of(*m), p.holds ? 2 : 3), of(*m),
+        bound_text(worst.checked.worst), worst.name == m->name ? "" : of(worst)));
+    if (m->reference_error >= 0.1 * error_of(*m))
+      out.push_back(fmt::format("Up to {} of {}'s error may be the reference's own.",
+                                bound_text(m->reference_error), m->name));
+  }
+  if (const auto* m = farthest(p, false))
+    out.push_back(fmt::format(
+        "The plan{} differs from {} by {}{} at {} of the points; no walk is known of this lobe, so "
+        "that is no bound.",
+        p.materials.size() == 1 ? std::string() : " of " + m->name,
+        scene::reference_in_words(m->reference), unit, significant(error_of(*m), 2), most));
 }
 
-std::vector<std::string> verdict(const scene::Plan& p, std::string_view unit) {
+/// True where nothing of what the material has is left out but double precision: its time is that it is compared with.
+bool needs_all(const scene::MaterialPlan& m) {
+  return std::abs(m.ops_saved) < 1e-12;
+}
+
+/// What the plan does to the times of materials whose plans shaders can run.
+void say_speeds(std::vector<std::string>& out, const scene::Plan& p) {
+  std::vector<const scene::MaterialPlan*> faster;
+  std::vector<std::string> whole;
+  for (const auto& m : p.materials)
+    if (!m.needs_table()) needs_all(m) ? whole.push_back(m.name) : faster.push_back(&m);
+  std::ranges::stable_sort(faster, std::greater{}, &scene::MaterialPlan::speedup);
+  const auto does = p.budget ? "The plan makes" : "Dropping what this scene does not need makes";
+  if (!faster.empty()) {
+    const auto &first = *faster[0], &last = *faster.back();
+    const auto most = speed(first.speedup), least = speed(last.speedup);
+    out.push_back(
+        faster.size() == 1 ? fmt::format("{} {} {}.", does, first.name, most)
+        : most == least
+            ? fmt::format("{} {} {}.", does,
+                          faster.size() == 2 ? first.name + " and " + last.name
+                                             : fmt::format("each of {} materials", faster.size()),
+                          most)
+        : faster.size() == 2
+            ? fmt::format("{} {} {}, and {} {}.", does, first.name, most, last.name, least)
+            : fmt::format("{} {}, which gains most, {}, and {}, which gains least, {}.", does,
+                          first.name, most, last.name, least));
+  }
+  if (!whole.empty())
+    out.push_back(fmt::format("{} {} all effects that {}.", list_text(whole),
+                              whole.size() == 1 ? "keeps" : "keep",
+                              whole.size() == 1 ? "it has" : "they have"));
+}
+
+/// Materials whose plans break the tolerance, and whether the budget does that.
+void say_broken(std::vector<std::string>& out, const scene::Plan& p, const std::string& unit) {
+  for (const auto& m : p.materials) {
+    if (m.holds) continue;
+    const auto limit = unit + plain(p.tolerance.limit);
+    out.push_back(!p.budget
+                      ? fmt::format("No set of forms keeps {} for {}: this is the closest plan.",
+                                    limit, m.name)
+                  : m.could_hold
+                      ? fmt::format("The budget leaves no set that keeps {} for {}.", limit, m.name)
+                      : fmt::format("No set of forms keeps {} for {}, with the budget or without.",
+                                    limit, m.name));
+  }
+}
+
+std::vector<std::string> verdict(const scene::Plan& p, const std::string& unit) {
   std::vector<std::string> out;
-  std::vector<const scene::MaterialPlan*> shippable;
+  say_speeds(out, p);
   for (const auto& m : p.materials)
-    if (!m.needs_table()) shippable.push_back(&m);
-  std::ranges::sort(shippable, {}, &scene::MaterialPlan::speedup);
-  if (shippable.size() == 1)
-    out.push_back(fmt::format("Dropping what this scene does not need makes {} {}.",
-                              shippable[0]->name, speed(shippable[0]->speedup)));
-  else if (!shippable.empty())
-    out.push_back(fmt::format(
-        "Dropping what this scene does not need makes {} {}, and {}, which needs the most, {}.",
-        shippable.back()->name, speed(shippable.back()->speedup), shippable[0]->name,
-        speed(shippable[0]->speedup)));
-  for (const auto& m : p.materials)
-    if (m.needs_table())
+    if (m.needs_table()) {
       out.push_back(fmt::format(
-          "No shader has the light between facets that {} needs here: what shaders have "
-          "differs by {}{} at best. The table makes it {}.",
-          m.name, unit, significant(m.shipped_upper, 2), speed(m.speedup)));
-  out.push_back(found(p, unit));
-  if (!p.holds)
-    for (const auto& m : p.materials)
-      if (!m.holds)
-        out.push_back(fmt::format(
-            "No form that is offered keeps {}{} for {}: its plan is the nearest, and the reference "
-            "itself is known to {}.",
-            unit, plain(p.tolerance.limit), m.name, significant(m.reference_error, 2)));
+          "The plan of {} has light between facets as a table, which no shader has. With it {} {}.",
+          m.name, m.name,
+          m.speedup < 1 ? fmt::format("takes {} the time", times(1 / m.speedup))
+                        : "is " + speed(m.speedup)));
+      out.push_back(fmt::format(
+          "With all else exact, what shaders have for {} differs by {}{} at best, without the "
+          "reference's own error.",
+          m.name, unit, significant(m.shipped_quantile, 2)));
+    }
+  say_errors(out, p, unit);
+  say_broken(out, p, unit);
   if (p.budget)
     out.push_back(p.budget->fits
                       ? fmt::format("A visible point takes {} ns of the {} ns that the scene "
-                                    "allows; the worst material errs by at most {}{}.",
-                                    significant(p.budget->ns), plain(p.budget->budget_ns), unit,
-                                    significant(p.budget->error, 2))
+                                    "allows.",
+                                    significant(p.budget->ns), plain(p.budget->budget_ns))
                       : fmt::format("Even the cheapest forms take {} ns a point, more than the {} "
                                     "ns that the scene allows.",
                                     significant(p.budget->ns), plain(p.budget->budget_ns)));
@@ -131,21 +187,27 @@ Section spheres(const scene::Scene& s, const scene::Plan& p) {
   }
   const auto made = scenes::picture_of(lit, forms, pixels, samples);
   const auto scale = scenes::difference_scale(p.tolerance);
-  return {"All effects, as planned, and the difference",
-          "",
-          {Markup{sphere_keys(scale) + R"(<div class="scene">)" +
-                  sphere_figure(fmt::format("ΔE up to {}", significant(made.worst, 2)), pixels,
-                                {{made.everything, "everything on"},
-                                 {made.planned, "as planned"},
-                                 {difference_png(made.difference, pixels, scale), "difference"}},
-                                true) +
-                  "</div>"}}};
+  const bool under_sky = std::ranges::any_of(
+      s.lights, [](const auto& l) { return std::holds_alternative<scene::EnvironmentLight>(l); });
+  return {
+      "All effects, as planned, and the difference",
+      std::string("The pictures leave the reference's own error out.") +
+          (under_sky ? " A pixel's light comes from few directions of the sky, so single pixels "
+                       "may differ by more than the points of the check."
+                     : ""),
+      {Markup{sphere_keys(scale) + R"(<div class="scene">)" +
+              sphere_figure(fmt::format("ΔE of a pixel up to {}", bound_text(made.worst)), pixels,
+                            {{made.everything, "everything on"},
+                             {made.planned, "as planned"},
+                             {difference_png(made.difference, pixels, scale), "difference"}},
+                            true) +
+              "</div>"}}};
 }
 
 Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::string& unit_name) {
   Table t{{{"effect"},
            {"here"},
-           {unit_name + " if dropped by itself", true},
+           {unit_name + " if only this is dropped", true},
            {"ns saved", true},
            {"operations saved", true},
            {"why"}},
@@ -161,7 +223,9 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
           e.keep   ? Cell{"keep" + form_words(e.form), {}, {}, "verdict-yes"}
           : absent ? Cell{"absent", {}, {}, "muted"}
                    : Cell{"drop"},
-          absent ? "–" : (proved ? "≤ " : "") + significant(e.error_if_dropped, 2),
+          absent   ? "–"
+          : proved ? at_most(e.error_if_dropped)
+                   : significant(e.error_if_dropped, 2),
           absent ? "–" : significant(e.ns_saved, 2), absent ? "–" : rounded(e.ops_saved),
           Cell{absent   ? e.reason
                : proved ? "by proof"
@@ -172,21 +236,28 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
   }
   const auto& c = m.checked;
   Section s{m.name,
-            "Each effect dropped by itself, all others exact. Errors do not add, so the plan's set "
-            "is checked as a whole. Savings are measured on all effects in double, "
+            "Each effect dropped by itself, all others exact, without the reference's own error. "
+            "Errors do not add, so the plan's set is checked as a whole. Savings are measured on "
+            "all effects in double, "
             "with Kulla and Conty's lobe between facets.",
             {t}};
   if (!m.holds)
-    s.parts.emplace_back(
-        Prose{"No set of forms keeps the tolerance here. This one is the nearest."});
+    s.parts.emplace_back(Prose{!p.budget ? "No set of forms keeps the tolerance here. This one is "
+                                           "the closest."
+                               : m.could_hold
+                                   ? "The budget leaves no set that keeps the "
+                                     "tolerance here."
+                                   : "No set of forms keeps the tolerance here, with the budget or "
+                                     "without."});
   const std::string failed =
       m.passed_over ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set")) : "";
   s.parts.emplace_back(Prose{
       m.bounded
-          ? fmt::format("Checked on {} fresh points: less than {} of all exceed the limit, with a "
-                        "confidence of {}. The error of the reference is in it.{}",
-                        count_text(c.samples), percent(c.bound), percent(p.tolerance.confidence),
-                        failed)
+          ? fmt::format(
+                "Checked on {} fresh points: less than {}\u202f% of all exceed the limit, with a "
+                "confidence of {}. The error of the reference is in it.{}",
+                count_text(c.samples), rounded_up(100 * c.bound), percent(p.tolerance.confidence),
+                failed)
           : fmt::format("Checked on {} fresh points beside {}. No walk is known of this lobe, so "
                         "nothing is claimed beyond these points.{}",
                         count_text(c.samples), scene::reference_in_words(m.reference), failed),
@@ -205,17 +276,21 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
       has_plan = has_plan || is_plan;
       front.add(Cell{kept_words(f.forms), {}, is_plan ? "the plan" : "", ""}, significant(f.ns),
                 rounded(f.ops),
-                m.bounded ? "≤ " + rounded_up(f.error.upper) : significant(f.error.quantile, 2),
-                significant(f.error.worst, 2));
+                m.bounded ? at_most(f.error.upper) : significant(f.error.quantile, 2),
+                bound_text(f.error.worst));
     }
-    s.parts.emplace_back(
-        Subtitle{fmt::format("{} sets of which none is faster and errs less", m.front.size())});
+    s.parts.emplace_back(Subtitle{
+        fmt::format("{} sets of which none {} and errs less", m.front.size(),
+                    p.cost == scene::Cost::time ? "is faster" : "takes fewer operations")});
     s.parts.emplace_back(front);
     if (!has_plan && m.holds)
       s.parts.emplace_back(Prose{
-          fmt::format("The plan, at {} ns, is none of them: among sets that cost as much, within "
-                      "the spread, it keeps the fewest effects.",
-                      significant(m.ns)),
+          p.cost == scene::Cost::time
+              ? fmt::format("The plan, at {} ns, is none of them: among sets that cost as much, "
+                            "within the spread, it keeps the fewest effects.",
+                            significant(m.ns))
+              : "The plan is none of them: among sets of as many operations it keeps the fewest "
+                "effects.",
           "small"});
   }
   return s;
@@ -241,12 +316,12 @@ std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
           {},
           "told-by-cell"};
   for (const auto& m : p.materials)
-    t.add(m.name, speed(m.speedup), signed_percent(0 - m.ops_saved),
-          names(m, [](const auto& e) { return e.keep; }),
-          names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
-          m.bounded ? "≤ " + rounded_up(m.checked.upper, m.holds ? 2 : 3)
-                    : significant(m.checked.quantile, 2),
-          significant(m.checked.worst, 2));
+    t.add(
+        m.name, speed(m.speedup), signed_percent(0 - m.ops_saved),
+        names(m, [](const auto& e) { return e.keep; }),
+        names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
+        m.bounded ? at_most(m.checked.upper, m.holds ? 2 : 3) : significant(m.checked.quantile, 2),
+        bound_text(m.checked.worst));
   out.sections = {
       {"What to keep, and how much faster that is",
        "Times of the effects that a material has, in float, with Kulla and Conty's "

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "reports/finding/words.h"
 #include "reports/page/numbers.h"
 #include "reports/page/section.h"
 #include "reports/page/spheres.h"
@@ -70,7 +71,7 @@ std::string triple(const ScenePicture& p, const scene::Tolerance& t) {
     return fmt::format("{} under {}, {}", p.material, p.light, how);
   };
   return sphere_figure(
-      fmt::format("{}, ΔE up to {}", capital(p.light), delta(p.worst)), p.pixels,
+      fmt::format("{}, ΔE of a pixel up to {}", capital(p.light), delta(p.worst)), p.pixels,
       {{p.everything, of("everything on")},
        {p.planned, of("as planned")},
        {difference_png(p.difference, p.pixels, scenes::difference_scale(t)), of("difference")}});
@@ -84,7 +85,9 @@ Section spheres(const ScenesRows& all) {
       if (p.material == m) html += triple(p, t);
     html += "</div>\n";
   }
-  return {"All effects, as planned, and the difference", "", {Markup{html}}};
+  return {"All effects, as planned, and the difference",
+          "The pictures leave the reference's own error out, which counts in what a plan claims.",
+          {Markup{html}}};
 }
 
 // --- Where the time goes
@@ -152,7 +155,9 @@ Section one_material(const ScenesReport& report) {
             e.keep   ? Cell{e.keeps == e.name ? "keep" : "keep " + e.keeps, {}, {}, "verdict-yes"}
             : absent ? Cell{"absent", {}, {}, "muted"}
                      : Cell{"drop"},
-            absent ? "0" : (e.why == "proved" ? "≤ " : "") + delta(e.error_if_dropped),
+            absent              ? "0"
+            : e.why == "proved" ? at_most(e.error_if_dropped)
+                                : delta(e.error_if_dropped),
             significant(e.ns_saved, 2),
             count_text(static_cast<std::size_t>(std::max(0.0, std::round(e.ops_saved)))),
             Cell{absent              ? e.reason

@@ -64,8 +64,9 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
       verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
       fmt::format("glass ΔE2000 {:.2g} against {:.2g} of masking", shown_by_schlick(r, "IOR 1.5"),
                   glass->delta_e),
-      fmt::format("Unreal's joint masking shows more than twice as much on {} dielectrics. Of "
-                  "metals it does on {}. On {} Schlick shows ΔE2000 {:.2g}, that masking {:.2g}.",
+      fmt::format("Unreal's joint masking's error is over twice Schlick's for {} dielectrics. "
+                  "Among metals it is for {}. For {} Schlick shows ΔE2000 {:.2g}, that masking "
+                  "{:.2g}.",
                   of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
                   shown_by_schlick(r, worst->material), worst->delta_e));
 }

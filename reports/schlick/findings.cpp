@@ -65,10 +65,9 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
   to.judge(
       "Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
       fmt::format("glass: up to {:.2g} of full light, {} of F", g->max_abs, percent(g->max_rel, 2)),
-      fmt::format("of glass (IOR 1.5) F is off by up to {:.2g} of full light, towards grazing "
-                  "angles. At all angles it stays within 0.01 of exact Fresnel for {} dielectrics "
-                  "and channels of metals.",
-                  g->max_abs, of_all(some, all)));
+      fmt::format("for glass (IOR 1.5) Schlick's F is off by up to {:.2g}, near grazing. At "
+                  "all angles {}{} dielectrics and channels of metals stay within 0.01.",
+                  g->max_abs, 2 * some < all && some > 0 ? "only " : "", of_all(some, all)));
 }
 
 void only_near_one(Findings& to, const SchlickRows& r) {
@@ -81,11 +80,13 @@ void only_near_one(Findings& to, const SchlickRows& r) {
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
   to.judge("Schlick is accurate enough; near a relative IOR of 1 its error is larger",
            "Disney, SIGGRAPH 2015", verdict(only, near),
-           fmt::format("up to {:.2g} for {}", metal->max_abs, metal->material),
-           fmt::format("its greatest error is least at IOR {:g}, {:.2g}. It grows to {:.2g} at IOR "
-                       "{:g}, and for {} to {:.2g}.",
-                       index(*best), best->max_abs, high.max_abs, index(high), metal->material,
-                       metal->max_abs));
+           fmt::format("up to {:.2g} at IOR {:g}, {:.2g} for {}", low.max_abs, index(low),
+                       metal->max_abs, metal->material),
+           fmt::format(
+               "it is off by up to {:.2g} at IOR {:g}. From IOR {:g} on its error grows again, to "
+               "{:.2g} at IOR {:g}. For {} it is {:.2g}.",
+               low.max_abs, index(low), index(*best), high.max_abs, index(high), metal->material,
+               metal->max_abs));
 }
 
 void from_inside(Findings& to, const SchlickRows& r) {
@@ -108,18 +109,25 @@ void metal_forms(Findings& to, const SchlickRows& r) {
   for (const auto& row : r.smooth)
     if (row.kind == "metal") by_form[row.form].push_back(row.rms);
   std::optional<Form> best, plain;
+  std::vector<std::string> same;
   for (auto& [form, rms] : by_form) {
     std::ranges::sort(rms);
     const Form f{form, rms[rms.size() / 2]};
     if (form == form_id::schlick) plain = f;
-    if (rms.back() < 1e-9) continue;  // exact, in other words
+    if (rms.back() < 1e-9) {  // exact, in other words
+      same.push_back(in_text(form));
+      continue;
+    }
     if (!best || f.median < best->median) best = f;
   }
   if (!best || !plain || best->form == form_id::schlick) return;
   to.say(fmt::format(
-      "Among the forms for smooth metals {} is nearest: its RMS over the angle is {:.2g} "
-      "for the median channel, Schlick's {:.2g}.",
+      "Among the forms that approximate smooth metals {} is nearest: its RMS over the angle is "
+      "{:.2g} for the median channel, Schlick's {:.2g}.",
       in_text(best->form), best->median, plain->median));
+  if (!same.empty())
+    to.say(
+        fmt::format("The exact equation in other parameters has no error: {}.", list_text(same)));
 }
 
 void variants(Findings& to, const SchlickRows& r) {
@@ -132,11 +140,12 @@ void variants(Findings& to, const SchlickRows& r) {
     if (std::abs(a[i]->max_abs - b[i]->max_abs) > 1e-6) differs = i;
     apart = std::max(apart, c[i]->max_abs - a[i]->max_abs);
   }
-  to.say(differs == a.size()
-             ? "Unreal's form of Schlick is Schlick's at every index."
-             : fmt::format("Unreal's form of Schlick loses the grazing reflection up to IOR {:g}, "
-                           "where it is off by up to {:.2g}.",
-                           index(*a[differs]), worst(b)->max_abs));
+  to.say(
+      differs == a.size()
+          ? "Unreal's form of Schlick is Schlick's at every index."
+          : fmt::format("Unreal's form of Schlick loses grazing reflection up to IOR {:g}. It is "
+                        "off most at IOR {:g}, by {:.2g}.",
+                        index(*a[differs]), index(*worst(b)), worst(b)->max_abs));
   to.say(fmt::format("The spherical Gaussian adds at most {:.1g} to Schlick's greatest error.",
                      apart));
 }

@@ -68,7 +68,8 @@ Section summary(const SchlickRows& all) {
                            most("spectral")});
   }
   return {"Every form in a line",
-          "Error of F: the form's value less the exact one. Every form has the exact F0. F82 takes "
+          "Error of F: the form's value less the exact one. Every form is given the exact F0; in "
+          "linear RGB that is cut to the gamut, which changes gold's. F82 takes "
           "its tint from the exact value at 82°; F90 and Lazányi's correction are fitted to each "
           "surface; the index forms have the index. The pointer shows where an error is largest.",
           {t}};

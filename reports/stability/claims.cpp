@@ -15,6 +15,16 @@ const StabilityRow* row_of(const StabilityRows& r, std::string_view id) {
   return at == r.rows.end() ? nullptr : &*at;
 }
 
+/// What the clamp of that masking changes besides.
+std::string by_clamp(const StabilityRows& r) {
+  const auto at = std::ranges::find_if(r.clamps, [](const ClampRow& c) {
+    return c.where == "masking.ue_joint.clamped" && c.number == "half";
+  });
+  if (at == r.clamps.end() || !at->changed_to) return {};
+  return fmt::format(" Its clamp changes values by up to {}, and by over 1\u00a0% up to {} {:.2g}.",
+                     percent(at->changed_most, 2), at->by, *at->changed_to);
+}
+
 }  // namespace
 
 void judge_f_and_g_in_half(Findings& to, const StabilityRows& r) {
@@ -34,9 +44,9 @@ void judge_f_and_g_in_half(Findings& to, const StabilityRows& r) {
       "F and G can be computed in half", "",
       verdict(keeps(*f) && keeps(*g), keeps(*f) || keeps(*g)),
       fmt::format("Schlick's F {}", lost(*f)),
-      fmt::format("of every half there is, or those that a search found, Schlick's F {}. Unreal's "
-                  "joint masking, clamped as it ships, {}.",
-                  lost(*f), lost(*g)));
+      fmt::format("Schlick's F in half {}{} (all halves tried). Unreal's clamped joint masking {} "
+                  "by rounding (search; there may be worse).{}",
+                  lost(*f), keeps(*f) ? "" : " for some inputs", lost(*g), by_clamp(r)));
 }
 
 }  // namespace gonio::stabilities

@@ -1,6 +1,8 @@
 // The atlas in sentences: made from its rows alone.
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <string_view>
 
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/words.h"
@@ -111,12 +113,15 @@ void without_a_value(Findings& to, const StabilityRows& r) {
     if (all.empty()) continue;
     const auto fails = static_cast<std::size_t>(std::ranges::count_if(
         all, [](const StabilityRow* row) { return row->nonfinite + row->overflow > 0; }));
+    std::set<std::string_view> formulas;
+    for (const auto* row : all) formulas.insert(row->id);
     const auto proved = static_cast<std::size_t>(std::ranges::count_if(
         all, [](const StabilityRow* row) { return row->finite_from.has_value(); }));
     to.say(
-        fmt::format("In {}, {} forms were found to have inputs without a value. From some width "
-                    "on, a value is proved for every input of {}.",
-                    number, of_all(fails, all.size()), number_or_none(proved)));
+        fmt::format("In {}, {} ways to compute {} formulas were found to have inputs without a "
+                    "value. From some alpha, F0 or index on, a value is proved for every input of "
+                    "{}.",
+                    number, of_all(fails, all.size()), formulas.size(), number_or_none(proved)));
   }
 }
 

@@ -6,6 +6,12 @@
 
 namespace gonio {
 
+/// ΔE2000 up to which nobody sees a difference, even side by side: the unit that CIEDE2000 is scaled to.  [CIE 142-2001]
+inline constexpr double just_seen = 1;
+/// ΔE2000 up to which a difference is seen only side by side, taken from what observers just saw in CIELAB.
+///                                                  [Mahy, Van Eycken and Oosterlinck 1994]
+inline constexpr double side_by_side = 2.3;
+
 /// CIE 1976 L*a*b*: lightness L of 0 to 100, a from green to red, b from blue to yellow.
 struct Lab {
   double l, a, b;

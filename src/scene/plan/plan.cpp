@@ -211,7 +211,7 @@ class MaterialPlanner {
     thin_out(left_, saved(), most_candidates);
     for (const Forms& forms : combinations(left_))
       if (auto s = new_surface(forms)) {
-        candidates_.push_back({.forms = plain(forms)});
+        candidates_.emplace_back().forms = plain(forms);
         surfaces_.push_back(*std::move(s));
       }
   }
@@ -239,7 +239,7 @@ class MaterialPlanner {
     std::vector<Surface> surfaces;
     for (const Forms& forms : combinations(all))
       if (auto s = new_surface(forms)) {
-        found.push_back({.forms = plain(forms)});
+        found.emplace_back().forms = plain(forms);
         surfaces.push_back(*std::move(s));
       }
     if (found.empty()) return;

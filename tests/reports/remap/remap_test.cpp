@@ -215,7 +215,7 @@ TEST(RemapReport, WhatIsSaidCanBeReadAloud) {
   for (auto& row : r.rows) row.by_g2.at_end = true, row.rms = 0.12345;
   for (auto& use : r.uses) use.value = 2.345 * use.separable;
   for (auto& g : r.g1) g.value = 1.2345 * g.smith;
-  for (auto& v : r.vf) v.factor = v.bias = 1.2345;
+  for (auto& v : r.vf) v.least = 0.12345, v.most = 1.2345;
   test::expect_plain(findings(r));
   for (auto& row : r.rows) row.by_g2.roughness = 0.01;
   test::expect_plain(findings(r));
@@ -224,8 +224,23 @@ TEST(RemapReport, WhatIsSaidCanBeReadAloud) {
 TEST(RemapReport, WhatLacksAQuarterIsFourTimesAsMuch) {
   // no spread: with the ¼ it is right, as printed off by four
   auto r = of({unity}, {0.5});
-  for (auto& v : r.vf) v.factor = v.bias = 1;
-  EXPECT_EQ(findings(r).claims.back().figure, "off by a factor of 4 to 4; with a ¼ by up to 1");
+  const auto figure = [&] { return findings(r).claims.back().figure; };
+  for (auto& v : r.vf) v.least = v.most = 1;
+  EXPECT_EQ(figure(), "off by a factor of up to 4; with a ¼ by up to 1");
+  for (auto& v : r.vf) v.least = 0.09, v.most = 1.8, v.factor = 3;
+  EXPECT_EQ(figure(), "off by a factor of up to 7.2; with a ¼ by up to 11") << "not the RMS factor";
+}
+
+TEST(RemapReport, NamesOfTwoFormsOfTheSameValuesTheOneOfFewerOperations) {
+  const auto r = of({separable, correlated, direct, joint, hammon}, {0.3, 0.5});
+  const auto operations = [&](const std::string& id) {
+    return std::ranges::find(r.forms, id, &RemapForm::form)->operations;
+  };
+  ASSERT_LT(operations(hammon), operations(joint));
+  const auto all = findings(r).sentences;
+  EXPECT_TRUE(std::ranges::any_of(all, [&](const std::string& s) {
+    return s.starts_with("It takes " + std::to_string(operations(hammon)) + " operations");
+  }));
 }
 
 TEST(RemapReport, PicturesShowWhatWasMeasured) {

@@ -75,17 +75,70 @@ TEST(PlanPage, NamesAMaterialThatKeepsTheToleranceInNoForm) {
   m.checked.upper = 1.0398, m.reference_error = 0.9635;
   const auto page = plan_page_html(plastic_scene(), p);
   EXPECT_NE(page.find("differs by at most ΔE2000 1.04;"), page.npos) << "1 would be the tolerance";
-  EXPECT_NE(page.find("keeps ΔE2000 1 for red plastic"), page.npos);
-  EXPECT_NE(page.find("the reference itself is known to 0.96"), page.npos);
+  EXPECT_NE(page.find("No set of forms keeps ΔE2000 1 for red plastic"), page.npos);
+  EXPECT_NE(page.find("Up to 0.97 of red plastic's error may be the reference's own."), page.npos);
+}
+
+TEST(PlanPage, CallsABudgetNoImpossibility) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  auto& m = p.materials.at(0);
+  p.holds = m.holds = false;
+  m.could_hold = true;
+  p.budget = scene::Budget{12, 3, 4.1, true};
+  const auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find("The budget leaves no set that keeps ΔE2000 1 for red plastic."), page.npos);
+  EXPECT_EQ(page.find("No set of forms"), page.npos);
+  EXPECT_EQ(page.find("does not need"), page.npos) << "it may need what the budget drops";
+}
+
+TEST(PlanPage, NamesTheCostThatNoSetBeats) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  ASSERT_GT(p.materials.at(0).front.size(), 1U);
+  EXPECT_NE(plan_page_html(plastic_scene(), p).find("none takes fewer operations and errs less"),
+            std::string::npos);
+  p.cost = scene::Cost::time;
+  EXPECT_NE(plan_page_html(plastic_scene(), p).find("none is faster and errs less"),
+            std::string::npos);
+}
+
+TEST(PlanPage, CallsNoMaterialNeedierThanOneThatIsTheSame) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  p.materials.push_back(p.materials[0]);
+  p.materials[1].name = "the same";
+  const auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find("makes red plastic and the same "), page.npos);
+  p.materials[1].name = "matte", p.materials[1].ops_saved = 0;
+  EXPECT_NE(plan_page_html(plastic_scene(), p).find("matte keeps all effects that it has."),
+            std::string::npos);
+}
+
+TEST(PlanPage, SaysWhatThePictureLeavesOut) {
+  GONIO_MANY_FITS();
+  const auto page = plan_page_html(plastic_scene(), plan());
+  EXPECT_NE(page.find("leave the reference's own error out"), page.npos);
+  EXPECT_NE(page.find("ΔE2000 up to 1 nobody sees"), page.npos);
+  auto s = plastic_scene();
+  auto p = plan();
+  p.tolerance.limit = 5;
+  EXPECT_EQ(plan_page_html(s, p).find("5, hardly seen"), std::string::npos)
+      << "the tolerance is not what people see";
 }
 
 TEST(PlanPage, BoundsNothingOfALobeThatNoWalkIsKnownOf) {
   GONIO_MANY_FITS();
   auto p = plan();
-  auto& m = p.materials.at(0);
-  m.bounded = false, m.reference = "kulla_conty", m.checked.quantile = 0.79;
+  const auto m = p.materials.at(0);
+  p.materials.push_back(m);
+  p.materials.back().name = "wax";
+  auto& wax = p.materials.back();
+  wax.bounded = false, wax.reference = "kulla_conty", wax.checked.quantile = 0.79;
   const auto page = plan_page_html(plastic_scene(), p);
-  EXPECT_NE(page.find(" by ΔE2000 0.79;"), page.npos);
+  EXPECT_NE(page.find("The plan of wax differs from Kulla and Conty's lobe by ΔE2000 0.79 at"),
+            page.npos);
+  EXPECT_NE(page.find(", of red plastic; the worst"), page.npos);
   EXPECT_NE(page.find("so that is no bound"), page.npos);
 }
 

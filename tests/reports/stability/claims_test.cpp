@@ -33,5 +33,22 @@ TEST(StabilityClaims, HalfServesFAndGWhereBothKeepTheirTolerance) {
   EXPECT_TRUE(judged(f, f).claim.empty());
 }
 
+TEST(StabilityClaims, SayWhatTheClampChangesBesideRounding) {
+  StabilityRows r;
+  r.rows = {in_half("fresnel.schlick", 0.004), in_half("masking.ue_joint.clamped", 0.0024)};
+  ClampRow c{};
+  c.where = "masking.ue_joint.clamped", c.by = "cosine", c.number = "half";
+  c.changed_to = 0.016, c.changed_most = 0.9996;
+  r.clamps = {c};
+  Findings said;
+  stabilities::judge_f_and_g_in_half(said, r);
+  test::expect_plain(said);
+  const auto& verdict = said.claims.at(0).verdict;
+  EXPECT_NE(verdict.find("off by up to 0.24\u00a0% by rounding"), verdict.npos) << verdict;
+  EXPECT_NE(verdict.find("by up to 100\u00a0%, and by over 1\u00a0% up to cosine 0.016."),
+            verdict.npos)
+      << verdict;
+}
+
 }  // namespace
 }  // namespace gonio

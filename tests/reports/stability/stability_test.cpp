@@ -127,8 +127,8 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
                    "values up to 3900 times too large."));
   EXPECT_TRUE(
       says(f,
-           "In half, 1 of 3 forms were found to have inputs without a value. From some width on, a "
-           "value is proved for every input of 1."));
+           "In half, 1 of 3 ways to compute 3 formulas were found to have inputs without a value. "
+           "From some alpha, F0 or index on, a value is proved for every input of 1."));
   test::expect_plain(f);
 }
 
