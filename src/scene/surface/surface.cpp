@@ -29,7 +29,7 @@ constexpr std::size_t channels = 3;
 /// Largest F0 that is taken for a dielectric's: eta = 3.
 constexpr double most_dielectric_f0 = 0.25;
 constexpr double f82_cosine = 1.0 / 7;
-constexpr std::string_view coupled = ".coupled";
+constexpr std::string_view coupled = ".coupled", aniso = "_aniso";
 const LobeSpec gltf_coat{"ggx", "smith_ggx.correlated", "schlick.weighted"};
 /// Forms with no compensation dearer than renderers ship.
 Forms as_shipped(Forms f) {
@@ -125,17 +125,10 @@ std::vector<double> band_averages(const SpectralMetal<double>& m) {
   return all;
 }
 
-struct Family {
-  std::string_view isotropic, anisotropic, name;
-};
-constexpr std::array families{Family{"ggx", "ggx_aniso", "ggx"},
-                              Family{"beckmann", "beckmann_aniso", "beckmann"},
-                              Family{"gtr", "", "gtr"}};
-
-const Family* family_of(std::string_view ndf) {
-  const auto at = std::ranges::find_if(
-      families, [&](const Family& f) { return f.isotropic == ndf || f.anisotropic == ndf; });
-  return at == families.end() ? nullptr : &*at;
+/// Name of a distribution that forms are of, without its anisotropy; "" of any other.
+std::string_view family_of(std::string_view ndf) {
+  const auto name = ndf.substr(0, ndf.size() - (ndf.ends_with(aniso) ? aniso.size() : 0));
+  return name == "ggx" || name == "beckmann" || ndf == "gtr" ? name : "";
 }
 bool stands_for_smith(std::string_view masking) {
   return masking.starts_with("smith_ggx") || masking.starts_with("smith_beckmann") ||
@@ -256,7 +249,7 @@ void Look::read(const BoundModel& b, bool coated) {
   first_.any = true;
   first_.lobe = spec_of(first);
   first_.shape = settings_of(b, {&first.ndf, &first.masking});
-  first_.known = family_of(first_.lobe.ndf) && stands_for_smith(first_.lobe.masking);
+  first_.known = !family_of(first_.lobe.ndf).empty() && stands_for_smith(first_.lobe.masking);
   const double alpha = number_of(first_.shape, "alpha", 1);
   first_.alpha_x = number_of(first_.shape, "alpha_x", alpha);
   first_.alpha_y = number_of(first_.shape, "alpha_y", alpha);
@@ -437,24 +430,21 @@ Surface Look::surface(const Forms& forms) const {
     LobeSpec lobe = first_.lobe;
     const double alpha = std::sqrt(first_.alpha_x * first_.alpha_y);
     if (first_.known) {
-      const Family& family = *family_of(first_.lobe.ndf);
+      const auto family = family_of(first_.lobe.ndf);
       const bool anisotropic = forms[Effect::anisotropy] == Form::anisotropic;
-      const bool tail = forms[Effect::tail] == Form::gtr_tail;
+      const bool tail = family != "gtr" || forms[Effect::tail] == Form::gtr_tail;
       // GTR under a masking of GGX is held under that one, as it was given.
-      const std::string_view smith = family.name != "gtr"                            ? family.name
-                                     : tail && lobe.masking.starts_with("smith_gtr") ? "gtr"
-                                                                                     : "ggx";
+      const auto smith =
+          tail && (family != "gtr" || lobe.masking.starts_with("smith_gtr")) ? family : "ggx";
       const auto masking = forms[Effect::masking];
-      lobe.ndf = anisotropic            ? family.anisotropic
-                 : family.name != "gtr" ? family.isotropic
-                 : tail                 ? "gtr"
-                                        : "ggx";
+      lobe.ndf = tail ? family : "ggx";
+      if (anisotropic) lobe.ndf += aniso;
       if (masking == Form::schlick_k)
         lobe.masking = smith == "beckmann" ? "schlick_beckmann" : "schlick_ggx.half_alpha";
       else
-        lobe.masking = fmt::format("smith_{}{}.{}", smith,
-                                   anisotropic && masking == Form::correlated ? "_aniso" : "",
-                                   name_of(masking));
+        lobe.masking =
+            fmt::format("smith_{}{}.{}", smith,
+                        anisotropic && masking == Form::correlated ? aniso : "", name_of(masking));
       settings.push_back({"alpha_x", {first_.alpha_x}});
       settings.push_back({"alpha_y", {first_.alpha_y}});
       settings.push_back({"alpha", {alpha}});
