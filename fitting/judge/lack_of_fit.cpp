@@ -255,7 +255,6 @@ LackOfFit lack_of_fit(
   const Tests tests =
       test(left, by_angle || (!s.table().truth && p.options.intervals != Intervals::independent),
            by_angle);
-  found.gains = gains_of(left, p, tests);
   const Regression& first = tests.all[0].regression;
   if (first.rounded && tests.all.size() == 1) {
     m.note = "what is left is no more than the values' own rounding";
@@ -291,6 +290,7 @@ LackOfFit lack_of_fit(
     excess = std::max(excess, tests.of_scales / mean_square(left));
   }
   if (!m.told) {
+    found.gains = gains_of(left, p, tests);
     // What models miss follows no other angle by itself than that of the light, whose cosine they
     // all know.
     const bool few_angles =

@@ -26,7 +26,8 @@ struct LackOfFit {
   Misfit misfit;
   double widening = 1;  ///< of the parameters' intervals, so that they include it
   std::optional<OddAngle> odd_angle = {};
-  /// Gains that the values of an angle share, of angles other than the incident one, whose clusters know of theirs.
+  /// Gains that the values of an angle share, of angles other than the incident one, whose clusters know of theirs; none
+  /// beside a misfit, which may look like them.
   struct SharedGains {
     std::string of;                 ///< as "outgoing angle"
     double freedom;                 ///< number of angles less 1
