@@ -106,14 +106,17 @@ TEST(ShaderCommand, WritesWhatAPlanShips) {
   const Folder f;
   const auto material = [](const std::string& compensation, const std::string& coat) {
     auto effects = nlohmann::json::array();
-    for (const std::string effect :
-         {"fresnel", "compensation", "masking", "anisotropy", "coat", "tail", "diffuse", "coupling",
-          "spectrum", "environment", "precision"}) {
-      const std::string form = effect == "compensation" ? compensation
-                               : effect == "coat"       ? coat
-                               : effect == "spectrum"   ? "rgb"
-                               : effect == "precision"  ? "float"
-                                                        : "any";
+    for (const auto& [effect, form] : {std::pair<std::string, std::string>{"fresnel", "schlick"},
+                                       {"compensation", compensation},
+                                       {"masking", "correlated"},
+                                       {"anisotropy", "off"},
+                                       {"coat", coat},
+                                       {"tail", "ggx"},
+                                       {"diffuse", "none"},
+                                       {"coupling", "off"},
+                                       {"spectrum", "rgb"},
+                                       {"environment", "split_sum"},
+                                       {"precision", "float"}})
       effects.push_back({{"effect", effect},
                          {"keep", false},
                          {"form", form},
@@ -121,7 +124,6 @@ TEST(ShaderCommand, WritesWhatAPlanShips) {
                          {"error_if_dropped", 0},
                          {"ns_saved", 0},
                          {"ops_saved", 0}});
-    }
     return nlohmann::json{{"effects", effects},
                           {"spec", "ggx/smith_ggx.correlated/schlick"},
                           {"parameters", {{"alpha", {0.2}}, {"f0", {1.0, 0.7, 0.4}}}},
