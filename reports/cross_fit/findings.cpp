@@ -321,8 +321,8 @@ void trust(Findings& to, const CrossFitRows& r) {
                     bounds, values));
   if (loose > 0)
     to.say(fmt::format(
-        "{} more are the best values of models that miss the truth by too much to bound "
-        "them: their shifts have no error.",
+        "{} others are the best values of models that miss the truth by too much to bound "
+        "them: no interval is known for these.",
         loose));
   if (error > 0)
     to.say(

@@ -327,7 +327,7 @@ std::string index_page_html(const ReportIndex& i) {
                         "taken.",
                         plain(side_by_side), plain(small_masking_error)),
             "Among forms that take the same measured time, the nearest is taken, or the usual "
-            "shortcut itself. GGX, the split sum and half are judged by no threshold: they are "
+            "shortcut itself. GGX and the split sum are judged by no threshold: they are "
             "what people ship.",
             "Colours are those of a rough surface under even light, beside a perfect diffuser "
             "in D65, without a tone map. A metal's true colour is that of its spectrum; three "
