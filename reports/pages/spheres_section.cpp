@@ -35,13 +35,13 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
   });
   const bool several = name.empty() && s.models.size() > 1;
   const auto alike = std::ranges::count_if(all, [&](std::size_t m) {
-    return worst(shown, m, &ModelSphere::median).models[m].median <= hardly_seen;
+    return worst(shown, m, &ModelSphere::median).models[m].median <= just_seen;
   });
   if (several && alike > 1)
     return fmt::format(
         "{} of {} models look almost like the table: half of their pixels differ by "
         "less than ΔE2000 {} under each light.",
-        alike, s.models.size(), hardly_seen);
+        alike, s.models.size(), just_seen);
   const auto who = name.empty() ? s.models[best] : fmt::format("the {}", name);
   const auto begin =
       several ? fmt::format("Among {} models, {} comes closest: it", s.models.size(), who)
