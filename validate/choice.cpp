@@ -376,8 +376,14 @@ Choice parse_choice(const std::string& path, const std::string& bytes) {
                                      std::pair(c.budgets.energy_loss, "energy_loss")})
       if (asked) root.at("budgets").at(key).fail("a model with a lobe, of which it is asked");
   if (c.budgets.ns) {
+    auto& baseline = c.budgets.ns->baseline;
     try {
-      bind_model(c.budgets.ns->baseline, {});
+      baseline = own_files_beside(path, baseline);
+    } catch (const Error& e) {
+      if (e.code() != Exit::usage) throw;
+    }
+    try {
+      bind_model(baseline, {});
     } catch (const Error& e) {
       root.at("budgets").at("ns").at("baseline").fail(fmt::format("a model ({})", e.what()));
     }

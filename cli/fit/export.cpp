@@ -95,7 +95,7 @@ Exit run(const ExportCall& o) {
   Export e = export_fit(o.target, o.fit, bind_fitted(o.fit, fitted, channels), o.tolerance);
   e.preview = o.preview;
   e.misfit = typical_misfit(o.fit, bytes);
-  out.write(file_of(e, bytes));
+  out.write(file_of(e, fit_document(o.fit, bytes)));
   out.commit();
   progress.clear();
   if (o.json)
@@ -121,6 +121,7 @@ void add_export(CommandLine& line) {
   c.flag("--preview", o->preview,
          "A sphere in the file, on which viewers show the material (gltf)");
   c.option("-o,--output", o->output, "File to write").required();
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

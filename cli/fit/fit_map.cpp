@@ -6,6 +6,7 @@
 #include <optional>
 #include <system_error>
 
+#include "base/earlier_file.h"
 #include "base/file.h"
 #include "cli/fit/map_result.h"
 #include "cli/line/command.h"
@@ -146,15 +147,14 @@ Exit run(const FitMapCall& o) {
   MapDocument d = gather_tiles(folder, out, threads_in_use());
   d.left_out = found.left_out;
   d.warnings = warnings_of(found, stack.stack(), t.model);
-  out.commit();
+  out.commit();  // the page is made from it
   if (page) {
     page->write(map_page_html(d));
     page->commit();
   }
   line.line().clear();
   print_map(d, o, n.kept ? fmt::format("{} of {} tiles kept from before", n.kept, n.tiles) : "");
-  std::error_code kept;
-  for (const Tile& tile : tiles) fs::remove(fs::path(folder) / file_name(tile), kept);
+  for (const Tile& tile : tiles) remove_unless_input((fs::path(folder) / file_name(tile)).string());
   return outcome_of(d);
 }
 

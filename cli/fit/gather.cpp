@@ -77,6 +77,7 @@ void add_gather(CommandLine& line) {
            "Tables that should have a result: several files, a folder, or @LIST (default: those of "
            "the fit that was begun last in DIR). One without is missing: exit 1");
   c.option("-o,--output", o->map, "OpenEXR file of the map whose tiles lie in DIR");
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

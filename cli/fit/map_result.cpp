@@ -6,6 +6,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "brdf/model/own_files.h"
 #include "cli/line/terminal.h"
 #include "fitting/map/tiles.h"
 
@@ -64,6 +65,7 @@ Exit gather_map(const std::string& folder, const std::string& output, const Comm
   Progress progress(o.quiet);
   progress("joining tiles");
   const MapDocument d = gather_tiles(folder, out, threads_in_use());
+  expect_own_files_below(folder, d.model);
   out.commit();
   progress.clear();
   print_map(d, o, "");

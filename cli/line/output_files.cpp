@@ -1,7 +1,7 @@
 #include "cli/line/output_files.h"
 
-#include <array>
 #include <filesystem>
+#include <vector>
 
 #include "base/json/reader.h"
 #include "cli/line/command.h"
@@ -39,9 +39,11 @@ void OutputFiles::write_page(std::string_view html, std::string_view data) {
   page_data_->write("\n");
 }
 
-void OutputFiles::commit() {
-  const auto made = [](std::optional<OutputFile>& f) { return f ? &*f : nullptr; };
-  commit_all(std::array{made(document_), made(page_data_), made(page_)});
+void OutputFiles::commit(std::initializer_list<OutputFile*> others) {
+  std::vector<OutputFile*> all(others);
+  for (auto* f : {&document_, &page_data_, &page_})
+    if (*f) all.push_back(&**f);
+  commit_all(all);
 }
 
 }  // namespace gonio::cli

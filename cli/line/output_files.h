@@ -2,6 +2,7 @@
 /// \file
 /// Files that a run leaves behind: a document, a page, or both.
 
+#include <initializer_list>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -27,7 +28,8 @@ class OutputFiles {
   /// \param data  one JSON document
   void write_page(std::string_view html, std::string_view data);
   /// All are whole before the first takes its name.
-  void commit();
+  /// \param others  of the same run; nullptr: none
+  void commit(std::initializer_list<OutputFile*> others = {});
 
  private:
   std::optional<OutputFile> document_, page_, page_data_;

@@ -79,6 +79,7 @@ void add_albedo(CommandLine& line) {
   add_set(c, o->set);
   add_reading(c, o->reading);
   c.options(o->question);
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -32,6 +32,7 @@ std::vector<double*> columns_for(Table& at, const std::vector<std::string>& chan
 }
 
 Exit run(const EvalCall& o) {
+  use(o);
   if (o.output.empty() && !o.json) throw wrong_usage("eval needs -o FILE or --json");
   auto inputs = file_in(o.what);
   inputs.push_back(o.directions);
@@ -95,6 +96,7 @@ void add_eval(CommandLine& line) {
   c.option("--directions", o->directions, "CSV with theta_i,phi_i,theta_o,phi_o in degrees")
       .required();
   c.option("-o,--output", o->output, "CSV to write");
+  add_follow_paths(c, *o);
   add_output(c, *o);
 }
 

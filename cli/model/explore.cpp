@@ -98,6 +98,7 @@ void add_explore(CommandLine& line) {
   c.flag("--app", o->app,
          "The page reads and fits tables that are dropped on it, as one with a table always does: "
          "gonio in a browser");
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

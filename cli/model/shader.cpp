@@ -283,6 +283,7 @@ void add_shader(CommandLine& line) {
   c.flag("--without-evidence", o->without_evidence,
          "Leaves out of the header what is known of the error, which takes seconds");
   c.option("-o,--output", o->output, "File to write  (default: the terminal)");
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

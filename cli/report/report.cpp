@@ -6,6 +6,7 @@
 #include <set>
 #include <system_error>
 
+#include "base/earlier_file.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/process.h"
@@ -88,6 +89,7 @@ class Files {
 
  private:
   void picture(const std::string& name, std::string_view bytes) {
+    expect_no_link(pictures_ / name);
     files_.push_back(std::make_unique<OutputFile>(pictures_ / name));
     files_.back()->write(bytes);
     files_.back()->close();  // of a report's hundreds, none stays open
@@ -108,7 +110,7 @@ class Files {
       std::error_code error;  // what stays does no harm
       const fs::path path = pictures_ / name;
       if (!written_.contains(name) && fs::is_regular_file(fs::symlink_status(path, error)))
-        fs::remove(path, error);
+        remove_unless_input(path.string());
     }
   }
 

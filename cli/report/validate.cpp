@@ -66,9 +66,8 @@ Exit run(const ValidateCall& o) {
   if (files.has_page()) files.write_page(validation_page_html(v), document);
   if (reports[0]) reports[0]->write(junit_of(v));
   if (reports[1]) reports[1]->write(sarif_of(v));
-  files.commit();
-  for (auto& r : reports)
-    if (r) r->commit();
+  const auto made = [](std::optional<OutputFile>& f) { return f ? &*f : nullptr; };
+  files.commit({made(reports[0]), made(reports[1])});
   if (o.json)
     fmt::print("{}\n", document);
   else

@@ -135,10 +135,8 @@ Exit run(const PlanCall& o) {
   if (materials) {
     written = in_materialx(s, plan, document);
     materials->write(written.file);
-    materials->close();
   }
-  files.commit();
-  if (materials) materials->commit();
+  files.commit({materials ? &*materials : nullptr});
   if (o.json) {
     fmt::print("{}", document);
   } else {

@@ -102,6 +102,7 @@ void add_compare(CommandLine& line) {
   c.option("--domain", o->domain, "For two terms: NAME=LOW,HIGH of their parameters").at_most(64);
   add_bins(c, o->bins);
   c.options(o->measured);
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

@@ -163,6 +163,7 @@ void add_synth(CommandLine& line) {
         c.flag("--half", o->half, "Map: images in half precision")})
     o->of_map.push_back(option);
   c.option("-o,--output", o->output, "File to write; of a map a folder").required();
+  add_follow_paths(c, *o);
   add_jobs(c, *o);
   add_output(c, *o);
 }

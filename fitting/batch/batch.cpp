@@ -11,6 +11,7 @@
 #include <unordered_map>
 #include <unordered_set>
 
+#include "base/earlier_file.h"
 #include "base/file.h"
 #include "base/json/describe.h"
 #include "base/memory_budget.h"
@@ -73,7 +74,11 @@ void expect_apart(const Batch& b, const std::vector<std::string>& results) {
   for (const auto& in : b.inputs)
     if (fs::is_directory(in, none) && fs::equivalent(in, b.output, none))
       throw wrong_usage(fmt::format("{} is a folder of tables; results go elsewhere", b.output));
-  for (const auto& r : results) expect_no_input((fs::path(b.output) / r).string());
+  for (const auto& r : results) {
+    const std::string path = (fs::path(b.output) / r).string();
+    expect_no_input(path);
+    expect_no_link(path);
+  }
 }
 
 // --- How many at a time ---
@@ -149,6 +154,19 @@ std::optional<BatchRow> kept(const std::string& table, const Place& to, const st
   return row;
 }
 
+/// True where a batch made the page that lies beside its document.
+bool is_own_page(const std::string& page, const std::string& document) {
+  if (!is_page_of(page, document)) return false;
+  may_replace(page);
+  try {
+    constexpr std::size_t head = 1024;
+    return InputFile(page).peek(head).find(R"(<meta name="generator" content="gonio">)") !=
+           std::string::npos;
+  } catch (const Error&) {
+    return false;
+  }
+}
+
 /// Why there is no fit; its document takes the place of that of what the table was before.
 BatchRow failed(const std::string& table,
                 const Place& to,
@@ -157,10 +175,12 @@ BatchRow failed(const std::string& table,
                 const std::string& line) {
   BatchRow row{table, "", outcome, line, {}, {}};
   std::error_code unknown;
-  if (!fs::exists(to.path, unknown) || is_batch_document(to.path)) {  // else it is somebody's own
-    write_file(to.path, failure_document(row, made));
-    std::remove(page_name(to.path).c_str());
-  }
+  const bool was_there = fs::exists(to.path, unknown);
+  if (was_there && !is_batch_document(to.path)) return row;  // it is somebody's own
+  const std::string page = page_name(to.path);
+  const bool has_page = was_there && is_own_page(page, to.path);
+  write_file(to.path, failure_document(row, made));
+  if (has_page) remove_unless_input(page);
   return row;
 }
 
@@ -229,7 +249,9 @@ std::vector<std::string> tables_of(const std::vector<std::string>& inputs) {
   return all;
 }
 
-std::vector<std::string> document_names(const std::vector<std::string>& tables) {
+std::vector<std::string> document_names(const std::vector<std::string>& as_named) {
+  std::vector<std::string> tables;  // as a list has them, from which they are named once more
+  std::ranges::transform(as_named, std::back_inserter(tables), as_in_document);
   constexpr std::size_t longest = 200;  // room for what goes around it while it is written
   std::unordered_map<std::string, int> sharing, next;
   for (const auto& t : tables) ++sharing[fs::path(t).stem().string()];
@@ -238,7 +260,8 @@ std::vector<std::string> document_names(const std::vector<std::string>& tables) 
   for (const auto& t : tables) {
     const fs::path p(t);
     const bool alone = sharing[p.stem().string()] == 1;
-    const std::string whole = (alone ? p.stem() : p.filename()).string();
+    std::string whole = (alone ? p.stem() : p.filename()).string();
+    if (whole.starts_with('.')) whole.insert(0, "_");  // hidden files are no results
     const std::string wanted(beginning(whole, longest));
     std::string name = wanted;
     int& k = next.try_emplace(wanted, 2).first->second;

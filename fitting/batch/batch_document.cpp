@@ -250,6 +250,12 @@ std::string failure_document(const BatchRow& row, const std::string& made_with) 
   return json_text(Failure{row, made_with});
 }
 
+std::string as_in_document(const std::string& text) {
+  const auto is_plain = [](unsigned char c) { return c < 0x80; };
+  return std::ranges::all_of(text, is_plain) ? text
+                                             : JsonDocument("", json_line(text)).root().string();
+}
+
 std::optional<ReadDocument> parse_document(const std::string& path, const std::string& bytes) {
   const JsonDocument document(path, bytes);
   const JsonReader& root = document.root();

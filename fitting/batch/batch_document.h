@@ -59,6 +59,9 @@ std::string batch_document(const FitDocument&, const Preview&, const std::string
 /// summary later knows that it was tried, and why.
 std::string failure_document(const BatchRow&, const std::string& made_with);
 
+/// Text as it comes back from a document: bytes that are no text are replaced there.
+std::string as_in_document(const std::string& text);
+
 /// Document of a batch as it lies in a folder, of a fit or of a failure.
 struct ReadDocument {
   BatchRow row;                   ///< without its document and page

@@ -5,7 +5,6 @@
 #include <filesystem>
 #include <set>
 #include <unordered_map>
-#include <unordered_set>
 
 #include "base/file.h"
 #include "base/json/describe.h"
@@ -40,11 +39,6 @@ std::string place(const std::string& folder, std::string_view name) {
 /// Key of a kept result less what its side file adds.
 std::string without_side_file(const std::string& made_with) {
   return made_with.substr(0, made_with.rfind(side_part));
-}
-
-/// Text as it comes back from a document: bytes that are no text are replaced there.
-std::string as_in_document(const std::string& text) {
-  return JsonDocument("", json_line(text)).root().string();
 }
 
 // --- What lies in the folder ---
@@ -124,17 +118,22 @@ BatchSummary summary_of(const std::string& folder,
   s.made_with = list ? list->made_with : usual_way(found);
   const auto tables = list ? list->tables : std::vector<std::string>();
   const auto names = document_names(tables);
-  const std::unordered_set<std::string> listed(names.begin(), names.end());
 
-  // The best document of each table, by the table's path.
-  std::map<std::string, Found*> best;
+  // The best document of each table, by the table's path; one that the list names, by its place
+  // there, too: two tables may have one path in documents, where bytes that are no text are
+  // replaced.
+  constexpr std::size_t unlisted = 0;
+  std::map<std::pair<std::string, std::size_t>, Found*> best;
   const auto leave_out = [&](const Found& d, LeftOut why) {
     s.left_out.push_back(
         {d.name, why, d.read ? d.read->row.path : "", d.read ? d.read->made_with : "", d.fault});
   };
-  std::unordered_map<std::string, std::string> name_of_table;
-  for (std::size_t i = 0; i < tables.size(); ++i)
-    name_of_table[as_in_document(tables[i])] = names[i];
+  std::unordered_map<std::string_view, std::size_t> table_of_name;
+  std::vector<std::string> in_document;
+  for (std::size_t i = 0; i < tables.size(); ++i) {
+    table_of_name[names[i]] = i;
+    in_document.push_back(as_in_document(tables[i]));
+  }
   const auto before = [](const Found& a, const Found& b) {
     return std::tuple(a.listed, a.written) > std::tuple(b.listed, b.written);
   };
@@ -144,16 +143,23 @@ BatchSummary summary_of(const std::string& folder,
     } else if (without_side_file(d.read->made_with) != s.made_with) {
       leave_out(d, LeftOut::made_otherwise);
     } else {
-      const auto own = name_of_table.find(d.read->row.path);
-      d.listed = own != name_of_table.end() && own->second == d.name;
-      auto& taken = best[d.read->row.path];
+      const auto own = table_of_name.find(d.name);
+      d.listed = own != table_of_name.end() && in_document[own->second] == d.read->row.path;
+      auto& taken = best[{d.read->row.path, d.listed ? own->second + 1 : unlisted}];
       if (taken) leave_out(before(d, *taken) ? *taken : d, LeftOut::another_of_its_table);
       if (!taken || before(d, *taken)) taken = &d;
     }
   }
 
   for (std::size_t i = 0; i < tables.size(); ++i) {
-    const auto at = best.find(as_in_document(tables[i]));
+    auto at = best.find({in_document[i], i + 1});
+    const auto other = best.find({in_document[i], unlisted});
+    if (at == best.end()) {
+      at = other;
+    } else if (other != best.end()) {
+      leave_out(*other->second, LeftOut::another_of_its_table);
+      best.erase(other);
+    }
     if (const auto row = known.find(names[i]); row != known.end()) {
       if (at != best.end()) leave_out(*at->second, LeftOut::another_of_its_table);
       s.rows.push_back(std::move(row->second));
@@ -232,6 +238,9 @@ BatchSummary gather(const std::string& folder,
   BatchSummary s = summary_of(folder, list, std::move(known));
   if (!list && s.rows.empty() && s.left_out.empty())
     throw bad_input(folder, "entries", "no result of a fit", "documents of gonio fit -o DIR");
+  for (const auto name :
+       {std::string_view("summary.csv"), page_data_name, std::string_view("summary.html")})
+    expect_no_link(place(folder, name));
   const std::string data = batch_json(s, true);
   OutputFile csv(place(folder, "summary.csv")), page_data(place(folder, page_data_name));
   csv.write(batch_csv(s.rows));

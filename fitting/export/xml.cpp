@@ -14,10 +14,13 @@ std::string xml_numbers(const std::vector<double>& v) {
 std::string xml_file(const std::string& elements,
                      const std::string& what,
                      const std::string& document) {
-  std::string comment = document;
-  for (std::size_t i = 0; (i = comment.find("--", i)) != comment.npos; i += 2)
-    comment.replace(i + 1, 1, "\\u002d");
-  std::string all = "<?xml version=\"1.0\"?>\n<!-- gonio: " + what + "\n" + comment + "\n-->\n";
+  std::string all = "<?xml version=\"1.0\"?>\n<!-- gonio: " + what + "\n";
+  for (const char c : document)
+    if (c == '-' && all.back() == '-')
+      all += "\\u002d";
+    else
+      all += c;
+  all += "\n-->\n";
   std::size_t depth = 0;
   for (const auto& line : split(elements, '\n')) {
     if (line.empty()) continue;

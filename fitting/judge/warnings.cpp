@@ -193,14 +193,14 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
   std::vector<std::string> all{"the model misses the table by a factor of " + size +
                                "; intervals include this"};
   if (const auto& c = m.worst_cell)
-    all.push_back(fmt::format("the largest deviation that is no noise is near theta_h {:.2g}°, theta_d {:.2g}°: {}",
-                              (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
-                              (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
-                              c->difference > 1   ? factor(1 + c->difference) + " times as bright"
-                              : c->difference > 0 ? percent(c->difference) + " too bright"
-                              : c->difference > -0.5
-                                  ? percent(-c->difference) + " too dark"
-                                  : factor(1 / (1 + c->difference)) + " times too dark"));
+    all.push_back(fmt::format(
+        "the largest deviation that is no noise is near theta_h {:.2g}°, theta_d {:.2g}°: {}",
+        (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
+        (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
+        c->difference > 1      ? factor(1 + c->difference) + " times as bright"
+        : c->difference > 0    ? percent(c->difference) + " too bright"
+        : c->difference > -0.5 ? percent(-c->difference) + " too dark"
+                               : factor(1 / (1 + c->difference)) + " times too dark"));
   return all;
 }
 

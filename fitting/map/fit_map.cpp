@@ -9,6 +9,7 @@
 #include <system_error>
 #include <vector>
 
+#include "base/earlier_file.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json/describe.h"
@@ -107,13 +108,16 @@ void remove_other_tiles(const StackReader& stack,
                         const std::string& folder) {
   const MapAttributes map = attributes_of(stack, options);
   std::error_code none;
-  for (const Tile& t : tiles_in(folder, none)) {
-    const fs::path path = fs::path(folder) / file_name(t);
-    may_replace(path.string());
+  const auto there = tiles_in(folder, none);
+  const auto path_of = [&](const Tile& t) { return (fs::path(folder) / file_name(t)).string(); };
+  for (const Tile& t : there) expect_no_input(path_of(t));  // before anything goes
+  for (const Tile& t : there) {
+    const std::string path = path_of(t);
+    may_replace(path);
     try {
-      expect_of(attributes_of(map, grid, t), read_exr_header(path.string()), path.string());
+      expect_of(attributes_of(map, grid, t), read_exr_header(path), path);
     } catch (const Error&) {
-      fs::remove(path, none);
+      remove_unless_input(path);
     }
   }
 }
@@ -176,7 +180,9 @@ MapCount fit_tiles(const StackReader& stack,
     tbb::parallel_for(std::size_t{0}, of_row.size(), [&](std::size_t k) {
       const Tile& tile = of_row[k];
       const Rectangle p = grid.place(tile);
-      OutputFile out((fs::path(folder) / file_name(tile)).string());
+      const std::string path = (fs::path(folder) / file_name(tile)).string();
+      expect_no_link(path);
+      OutputFile out(path);
       ExrWriter writer(out, p.width, p.height, planes.channels(), attributes_of(map, grid, tile),
                        ExrWriter::Packing::none);
       planes.write(writer, p);

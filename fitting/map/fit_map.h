@@ -30,7 +30,8 @@ struct MapCount {
   std::size_t texels = 0, done = 0;  ///< of the tiles that are not kept
 };
 
-/// Removes tiles of any other map from a folder: those that a run left which ended early.
+/// Removes tiles of any other map from a folder: those that a run left which ended early.  None goes, and it is wrong usage, where one
+/// is an input.
 void remove_other_tiles(const StackReader&,
                         const TexelOptions&,
                         const TileGrid&,

@@ -15,6 +15,7 @@
 #include <set>
 #include <utility>
 
+#include "base/earlier_file.h"
 #include "base/error.h"
 #include "base/numbers.h"
 #include "base/process.h"
@@ -105,6 +106,17 @@ void expect_no_input(const std::string& path) {
   with_guarded(path, [&](Guarded& g, const Entry& e) {
     if (g.inputs.contains(e)) throw overwritten(path);
   });
+}
+bool remove_unless_input(const std::string& path) {
+  bool is_input = false;
+  with_guarded(path, [&](Guarded& g, const Entry& e) { is_input = g.inputs.contains(e); });
+  if (!is_input) ::unlink(path.c_str());
+  return !is_input;
+}
+void expect_no_link(const std::string& path) {
+  struct stat s {};
+  if (::lstat(path.c_str(), &s) == 0 && S_ISLNK(s.st_mode))
+    throw bad_input(path, "writing", "a link", "a file of the folder itself (remove the link)");
 }
 bool same_place(const std::string& a, const std::string& b) {
   return entry_of(a) == entry_of(b);

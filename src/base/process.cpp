@@ -2,6 +2,7 @@
 
 #include <array>
 #include <atomic>
+#include <cerrno>
 #include <chrono>
 #include <cstdio>
 #include <filesystem>
@@ -10,8 +11,10 @@
 #include <thread>
 #include <vector>
 
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
+#include <sys/prctl.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -100,6 +103,69 @@ std::optional<ProcessResult> run_program(const std::string& name,
        result.output.size() < most && (n = std::fread(part, 1, sizeof part, out.get())) > 0;)
     result.output.append(part, n);
   return result;
+}
+
+namespace {
+
+/// Signals that end a run and take its unfinished files with it.
+sigset_t ending_signals() {
+  sigset_t all;
+  sigemptyset(&all);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&all, signal);
+  return all;
+}
+
+[[noreturn]] void run_copy(const std::function<std::string()>& work,
+                           int to,
+                           pid_t parent,
+                           const sigset_t& signals_before) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (struct sigaction now{};
+        ::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN)
+      ::signal(signal, SIG_DFL);
+  ::sigprocmask(SIG_SETMASK, &signals_before, nullptr);
+  ::prctl(PR_SET_PDEATHSIG, SIGKILL);
+  if (::getppid() != parent) ::_exit(1);  // it ended before that was said
+  const std::string out = work();
+  for (std::size_t at = 0; at < out.size();) {
+    const auto n = ::write(to, out.data() + at, out.size() - at);
+    if (n <= 0) ::_exit(1);
+    at += static_cast<std::size_t>(n);
+  }
+  ::_exit(0);
+}
+
+}  // namespace
+
+std::string answer_of_copy(const std::function<std::string()>& work, std::size_t most) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) return {};
+  // Until the copy has its own handlers, and this process knows its number, no signal comes in
+  // between.
+  const sigset_t ending = ending_signals();
+  sigset_t before;
+  ::pthread_sigmask(SIG_BLOCK, &ending, &before);
+  const pid_t parent = ::getpid(), child = ::fork();
+  if (child == 0) {
+    ::close(ends[0]);
+    run_copy(work, ends[1], parent, before);
+  }
+  if (child > 0) swap_running(0, child);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  ::close(ends[1]);
+  std::string all;
+  std::array<char, 65536> piece{};
+  for (ssize_t n = 0; child > 0 && (n = ::read(ends[0], piece.data(), piece.size())) != 0;) {
+    if (n < 0 && errno == EINTR) continue;
+    if (n < 0) break;
+    if (all.size() <= most) all.append(piece.data(), static_cast<std::size_t>(n));
+  }
+  ::close(ends[0]);
+  if (child < 0) return {};
+  swap_running(child, 0);
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? all : std::string();
 }
 
 std::string this_program() {

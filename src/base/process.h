@@ -2,6 +2,8 @@
 /// \file
 /// Other programs, run without a shell.
 
+#include <cstddef>
+#include <functional>
 #include <optional>
 #include <span>
 #include <string>
@@ -22,7 +24,14 @@ std::optional<ProcessResult> run_program(const std::string& name,
                                          const std::string& input,
                                          double seconds);
 
-/// Ends the programs that run_program() waits for.  A signal handler may call it.
+/// What a function writes in a process of its own, a copy of this one, which ends with this one; empty where it could not be started,
+/// or did not return.  \param most  bytes that are kept of it
+///
+/// The function may take memory and time as it likes, and end the process: nothing of it comes back but its bytes.  Signals end the
+/// copy and do nothing else: the files being made belong to this process.
+std::string answer_of_copy(const std::function<std::string()>& work, std::size_t most);
+
+/// Ends the programs that run_program() and answer_of_copy() wait for.  A signal handler may call it.
 void end_programs() noexcept;
 
 /// Path by which the running program starts itself once more; empty where nothing says it.

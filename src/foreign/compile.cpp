@@ -9,6 +9,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/process.h"
 
 #include <fmt/format.h>
 #include <glslang/Public/ResourceLimits.h>
@@ -16,7 +17,6 @@
 #include <glslang/SPIRV/GlslangToSpv.h>
 #include <spirv-tools/libspirv.hpp>
 #include <sys/resource.h>
-#include <sys/wait.h>
 #include <unistd.h>
 
 namespace gonio::foreign {
@@ -175,42 +175,15 @@ void take_limits() {
   bound(RLIMIT_NOFILE, 0);  // opens nothing from here on
 }
 
-[[noreturn]] void run_child(const Source& s, int to) {
+/// "+" and the words, or "-" and what is wrong.
+std::string answer_of(const Source& s) {
   take_limits();
-  std::string out(1, '+');
   try {
     const auto words = compiled_here(s);
-    out.append(reinterpret_cast<const char*>(words.data()), words.size() * 4);
+    return "+" + std::string(reinterpret_cast<const char*>(words.data()), words.size() * 4);
   } catch (const std::exception& e) {
-    out = std::string("-") + e.what();
+    return std::string("-") + e.what();
   }
-  for (std::size_t at = 0; at < out.size();) {
-    const auto n = ::write(to, out.data() + at, out.size() - at);
-    if (n <= 0) break;
-    at += static_cast<std::size_t>(n);
-  }
-  ::_exit(0);
-}
-
-/// What the child wrote; empty where it was killed.
-std::string answer_of_child(const Source& s) {
-  std::array<int, 2> ends{};
-  if (::pipe(ends.data()) != 0) throw bad_input(s.path, "compiling", "no pipe", "one");
-  const pid_t child = ::fork();
-  if (child < 0) throw bad_input(s.path, "compiling", "no process", "one");
-  if (child == 0) {
-    ::close(ends[0]);
-    run_child(s, ends[1]);
-  }
-  ::close(ends[1]);
-  std::string all;
-  std::array<char, 65536> piece{};
-  for (ssize_t n = 0; (n = ::read(ends[0], piece.data(), piece.size())) > 0;)
-    if (all.size() <= most_words * 4) all.append(piece.data(), static_cast<std::size_t>(n));
-  ::close(ends[0]);
-  int status = 0;
-  ::waitpid(child, &status, 0);
-  return WIFEXITED(status) && WEXITSTATUS(status) == 0 ? all : std::string();
 }
 
 }  // namespace
@@ -220,7 +193,7 @@ bool can_compile() {
 }
 
 std::vector<std::uint32_t> compile(const Source& s) {
-  const std::string answer = answer_of_child(s);
+  const std::string answer = answer_of_copy([&] { return answer_of(s); }, most_words * 4);
   if (answer.empty())
     throw bad_input(s.path, "compiling",
                     "a text that takes the compiler too deep, too far or too long",

@@ -22,8 +22,8 @@
 namespace gonio::foreign {
 namespace {
 
-constexpr std::size_t most_read = 16;        ///< parameters of a function
-constexpr std::uint32_t spirv_pointer = 32;  ///< OpTypePointer
+constexpr std::size_t most_read = 16;                             ///< parameters of a function
+constexpr std::uint32_t spirv_pointer = 32, spirv_variable = 59;  ///< OpTypePointer, OpVariable
 
 // ---- names of arguments
 // ---------------------------------------------------------------------------
@@ -149,6 +149,7 @@ Ref cosine(Program& p, const std::string& name) {
 struct Compiled {
   Source source;
   std::unique_ptr<const SpirvModule> module;
+  std::map<std::string, Id> functions;  ///< that give a number or a colour, by name
 };
 
 std::mutex files_mutex;
@@ -162,10 +163,23 @@ std::map<std::string, std::shared_ptr<const Compiled>>& files() {
                   "a function of numbers that ends");
 }
 
+/// Functions that give a number or a colour; the last of those that share a name.
+std::map<std::string, Id> functions_of(const SpirvModule& m) {
+  std::map<std::string, Id> all;
+  for (const auto& [id, f] : m.functions()) {
+    const auto name = m.short_name(id);
+    if (name.starts_with("gonio_") || name.empty() || name == "main") continue;
+    const auto op_size = m.is_of_numbers(f.result) ? m.size(f.result) : 0;
+    if (op_size == 1 || op_size == 3 || op_size == 4) all[name] = id;
+  }
+  return all;
+}
+
 std::shared_ptr<const Compiled> compiled(Source source) {
-  auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr});
+  auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr, {}});
   try {
     c->module = std::make_unique<SpirvModule>(compile(c->source));
+    c->functions = functions_of(*c->module);
   } catch (const Refused& r) {
     refuse(c->source.path, r);
   } catch (const std::out_of_range&) {
@@ -183,22 +197,10 @@ std::shared_ptr<const Compiled> file_of(const std::string& path) {
   return known;
 }
 
-/// Functions that give a number or a colour, by name; the last of those that share a name.
-std::map<std::string, Id> functions_of(const SpirvModule& m) {
-  std::map<std::string, Id> all;
-  for (const auto& [id, f] : m.functions()) {
-    const auto name = m.short_name(id);
-    if (name.starts_with("gonio_") || name.empty() || name == "main") continue;
-    const auto op_size = m.is_of_numbers(f.result) ? m.size(f.result) : 0;
-    if (op_size == 1 || op_size == 3 || op_size == 4) all[name] = id;
-  }
-  return all;
-}
-
 /// The function that a file means: one called BRDF, or else the last that takes two directions.
 std::string main_function(const Compiled& c, const std::string& path) {
   const SpirvModule& m = *c.module;
-  const auto all = functions_of(m);
+  const auto& all = c.functions;
   std::vector<std::string> names;
   std::optional<std::string> last;
   int line = -1;
@@ -241,7 +243,7 @@ class Builder {
   }
 
   Function built() {
-    const auto all = functions_of(m_);
+    const auto& all = c_.functions;
     const auto id = all.find(f_.name.function);
     if (id == all.end()) {
       std::vector<std::string_view> names;
@@ -265,8 +267,8 @@ class Builder {
     if (t.program.outputs.size() == 4) t.program.outputs.pop_back();
     if (c_.source.explorer)
       std::ranges::stable_sort(raw_, {}, [&](const Raw& r) {
-        return std::ranges::find(c_.source.declared, r.name, &Declared::name) -
-               c_.source.declared.begin();
+        const auto* d = c_.source.find(r.name);
+        return d ? d - c_.source.declared.data() : std::ssize(c_.source.declared);
       });
     divide_into_channels(t.program);
     expect_known_names();
@@ -316,10 +318,21 @@ class Builder {
       f_.arguments.push_back({name, stands_for});
   }
 
+  /// True of a variable of the file, or a member of one, whether or not the function reads it.
+  bool is_global(const std::string& name) const {
+    return std::ranges::any_of(m_.globals(), [&](const Instruction& g) {
+      if (g.op != spirv_variable) return false;
+      const auto& held = m_.type(m_.type(g.type).element);
+      for (std::size_t k = 0; k < held.members.size(); ++k)
+        if (m_.member_name(m_.type(g.type).element, k) == name) return true;
+      return m_.name(g.id) == name;
+    });
+  }
   void expect_known_names() const {
     const auto known = [&](const std::string& n) {
       return std::ranges::find(f_.arguments, n, &Argument::name) != f_.arguments.end() ||
-             std::ranges::find(f_.parameters, n, &FunctionParameter::name) != f_.parameters.end();
+             std::ranges::find(f_.parameters, n, &FunctionParameter::name) != f_.parameters.end() ||
+             is_global(n);
     };
     for (const auto& [n, v] : f_.name.reading.arguments)
       if (!known(n)) throw wrong_usage(fmt::format("{} has no argument '{}'", text_of(f_.name), n));
@@ -561,7 +574,7 @@ Function read_function(const Name& name, std::optional<Stands> as) {
 std::vector<Entry> list_functions(const std::string& file) {
   const auto c = file_of(file);
   std::vector<Entry> all;
-  for (const auto& [name, id] : functions_of(*c->module)) {
+  for (const auto& [name, id] : c->functions) {
     Entry e{name, c->module->functions().at(id).line};
     for (const auto& [argument, type] : c->module->functions().at(id).parameters)
       e.arguments.emplace_back(c->module->name(argument));

@@ -133,7 +133,7 @@ void read_explorer(Source& s, const std::vector<std::string>& lines) {
     const bool marks = !words.empty() && words[0].starts_with("::");
     if (marks) section = words.size() > 1 && words[0] == "::begin" ? std::string(words[1]) : "";
     if (section == "parameters" && !marks && !words.empty() && words[0][0] != '#')
-      s.declared.push_back(declared_in(s.path, number, words));
+      s.declare(declared_in(s.path, number, words));
     shader += section == "shader" && !marks ? plain_line(s.path, number, line, 1) + "\n" : "\n";
   }
   std::string head;
@@ -150,9 +150,14 @@ void read_explorer(Source& s, const std::vector<std::string>& lines) {
 
 }  // namespace
 
+void Source::declare(Declared d) {
+  first_.try_emplace(d.name, declared.size());
+  declared.push_back(std::move(d));
+}
+
 const Declared* Source::find(std::string_view name) const {
-  const auto it = std::ranges::find(declared, name, &Declared::name);
-  return it == declared.end() ? nullptr : &*it;
+  const auto at = first_.find(name);
+  return at == first_.end() ? nullptr : &declared[at->second];
 }
 
 bool is_source_name(std::string_view path) {
@@ -169,7 +174,12 @@ Source source_of(const std::string& path, const std::string& content) {
   const auto language = languages().find(ending_of(path));
   if (language == languages().end())
     throw wrong_usage(fmt::format("{}: expected .brdf, .glsl, .frag, .hlsl or .spv", path));
-  Source s{path, language->second, path.ends_with(".brdf"), content, sha256(content), {}};
+  Source s;
+  s.path = path;
+  s.language = language->second;
+  s.explorer = path.ends_with(".brdf");
+  s.text = content;
+  s.sha256 = sha256(content);
   if (s.language == Language::spirv) return s;
   if (content.find('\0') != content.npos)
     throw bad_input(path, "the whole file", "bytes that are no text", "a shader's text");
@@ -183,7 +193,7 @@ Source source_of(const std::string& path, const std::string& content) {
   for (std::size_t k = 0; k < lines.size(); ++k) {
     const int number = static_cast<int>(k) + 1;
     if (auto d = declared_by_comment(number, lines[k]); d && !s.find(d->name))
-      s.declared.push_back(std::move(*d));
+      s.declare(std::move(*d));
     s.text += plain_line(path, number, lines[k], depth) + "\n";
     for (const char c : lines[k]) depth += c == '{' ? 1 : c == '}' ? -1 : 0;
   }

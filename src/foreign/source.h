@@ -2,6 +2,9 @@
 /// \file
 /// A person's file: what language it is in, the text to compile, and the parameters that the file itself declares.
 
+#include <cstddef>
+#include <functional>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -28,9 +31,14 @@ struct Source {
   bool explorer = false;  ///< a .brdf file
   std::string text;       ///< to compile, its lines numbered as the person's
   std::string sha256;     ///< of the file
-  std::vector<Declared> declared;
+  std::vector<Declared> declared{};
 
+  void declare(Declared);
+  /// The first of a name.
   const Declared* find(std::string_view name) const;
+
+ private:
+  std::map<std::string, std::size_t, std::less<>> first_;  ///< among those declared, by name
 };
 
 /// True of a name that ends as these files do: .brdf, .glsl, .frag, .hlsl, .spv.

@@ -47,7 +47,34 @@ SpirvModule::SpirvModule(std::vector<std::uint32_t> words) : words_(std::move(wo
     i.line = line;
     declare(i, f);
   }
-  for (auto& [id, g] : functions_) put_in_order(g);
+  for (auto& [id, g] : functions_) {
+    put_in_order(g);
+    if (g.parameters.empty() && short_name(id) == "main") mains_.push_back(id);
+  }
+}
+
+std::vector<std::size_t> SpirvModule::globals_of(std::vector<Id> functions) const {
+  std::set<Id> seen(functions.begin(), functions.end());
+  std::set<std::size_t> globals;
+  std::vector<std::size_t> next;
+  const auto refer = [&](Id id) {
+    if (const auto g = global_at_.find(id); g != global_at_.end()) {
+      if (globals.insert(g->second).second) next.push_back(g->second);
+    } else if (functions_.contains(id) && seen.insert(id).second) {
+      functions.push_back(id);
+    }
+  };
+  // A number among the operands may look like an id: then more is there than is needed.
+  for (std::size_t k = 0; k < functions.size(); ++k)
+    for (const auto& block : functions_.at(functions[k]).blocks)
+      for (const auto& i : block.code) std::ranges::for_each(i.in, refer);
+  while (!next.empty()) {
+    const auto& g = globals_[next.back()];
+    next.pop_back();
+    for (const Id id : g.in)
+      if (global_at_.contains(id)) refer(id);
+  }
+  return {globals.begin(), globals.end()};
 }
 
 void SpirvModule::declare(const Instruction& i, SpirvFunction*& f) {
@@ -75,8 +102,9 @@ void SpirvModule::declare(const Instruction& i, SpirvFunction*& f) {
       return;
     case spv::OpTypeArray: {
       std::uint32_t n = 0;
-      for (const auto& g : globals_)
-        if (g.id == i.in[1] && g.op == spv::OpConstant) n = g.in[0];
+      if (const auto at = global_at_.find(i.in[1]);
+          at != global_at_.end() && globals_[at->second].op == spv::OpConstant)
+        n = globals_[at->second].in[0];
       if (n == 0 || n > most_elements)
         throw Refused("an array of unknown length, or of more than 4096 elements", i.line);
       types_[i.id] = {i.op, 0, i.in[0], n};
@@ -122,7 +150,7 @@ void SpirvModule::declare(const Instruction& i, SpirvFunction*& f) {
   if (f && f->line == 0) f->line = i.line;
   if (f)
     f->blocks.back().code.push_back(i);
-  else if (i.id)
+  else if (i.id && global_at_.try_emplace(i.id, globals_.size()).second)
     globals_.push_back(i);
 }
 

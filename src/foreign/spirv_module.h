@@ -8,6 +8,7 @@
 #include <set>
 #include <span>
 #include <string>
+#include <unordered_map>
 #include <utility>
 #include <vector>
 
@@ -51,6 +52,10 @@ class SpirvModule {
 
   const std::map<Id, SpirvFunction>& functions() const { return functions_; }
   const std::vector<Instruction>& globals() const { return globals_; }
+  /// Places among globals() of what some functions refer to, with what they call: ascending.
+  std::vector<std::size_t> globals_of(std::vector<Id> functions) const;
+  /// Functions of that name without a parameter, which a compiler puts the values of globals into.
+  const std::vector<Id>& mains() const { return mains_; }
   const SpirvType& type(Id id) const { return types_.at(id); }
   std::string name(Id id) const;
   /// Without the signature that glslang appends.
@@ -72,6 +77,8 @@ class SpirvModule {
   std::map<Id, std::vector<std::string>> member_names_;
   std::map<Id, SpirvType> types_;
   std::vector<Instruction> globals_;
+  std::unordered_map<Id, std::size_t> global_at_;
+  std::vector<Id> mains_;
   std::map<Id, SpirvFunction> functions_;
   std::set<Id> glsl450_;
 };

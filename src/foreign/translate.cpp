@@ -68,15 +68,19 @@ class Translator {
   Translator(const SpirvModule& module, const Binding& binding) : m(module), bind_(binding) {}
 
   Translation run(Id function) {
-    for (const auto& g : m.globals()) {
+    // Those that it needs, in the order of the text: a file may have as many as functions.
+    std::vector<Id> run_first = m.mains();
+    std::erase(run_first, function);
+    std::vector<Id> all = run_first;
+    all.push_back(function);
+    for (const std::size_t k : m.globals_of(std::move(all))) {
+      const auto& g = m.globals()[k];
       p.line = g.line;
       if (g.op == spv::OpVariable && !m.is_of_numbers(m.type(g.type).element)) continue;
       global(g);
     }
     // Globals that are no constants, but have a value, get it where main begins.
-    for (const auto& [id, main] : m.functions())
-      if (m.short_name(id) == "main" && id != function && main.parameters.empty())
-        call(main, {}, p.truth(true), 1);
+    for (const Id id : run_first) call(m.functions().at(id), {}, p.truth(true), 1);
     const auto& f = m.functions().at(function);
     p.line = f.line;
     std::vector<Value> arguments;

@@ -120,8 +120,10 @@ void expect_sound_exr(const std::string& path) {
   if (magic_and_version[1] & 0x1000U)
     throw bad_input(in.path(), "byte 4", "an image of several parts", "one part");
   std::array<std::uint64_t, 2> image{}, tile{};
-  std::size_t channels = 0, rows = 1;
+  std::size_t channels = 0, rows = packed_rows(Imf::ZIP_COMPRESSION);  // where it says nothing
+  std::set<std::string> seen;
   for (std::string name = text(); !name.empty(); name = text()) {
+    if (!seen.insert(name).second) throw refuse(name, "a second one", "one of each name");
     const std::string type = text();
     std::int32_t size = 0;
     in.read(&size, sizeof size);
@@ -131,12 +133,14 @@ void expect_sound_exr(const std::string& path) {
     in.read(value.data(), value.size());
     if (!fills(type, value))
       throw refuse(name, fmt::format("{} of {} bytes", type, size), "a value of its size");
-    if (type == "chlist") channels = std::max(channels, value.size() / 18);
-    if (type == "compression") rows = packed_rows(static_cast<Imf::Compression>(value[0]));
+    // OpenEXR goes by the name: others of these types are for whoever wrote them.
+    if (name == "channels" && type == "chlist") channels = value.size() / 18;
+    if (name == "compression" && type == "compression")
+      rows = packed_rows(static_cast<Imf::Compression>(value[0]));
     for (std::size_t k = 0; k < 2; ++k) {
       if (name == "dataWindow")
         image[k] = std::uint64_t{number_at(value, 8 + 4 * k) - number_at(value, 4 * k)} + 1;
-      if (type == "tiledesc") tile[k] = std::max(number_at(value, 4 * k), 1U);
+      if (name == "tiles" && type == "tiledesc") tile[k] = std::max(number_at(value, 4 * k), 1U);
     }
   }
   // On opening, it allocates for each tile's place in the file, and for the lines that are packed
@@ -146,11 +150,18 @@ void expect_sound_exr(const std::string& path) {
         n > in.left(in.size()) / sizeof(std::uint64_t))
       throw bad_input(in.path(), "tiles", fmt::format("{} of them", n), "places for all of them");
   constexpr std::uint64_t most = std::uint64_t{1} << 29;
-  const auto bytes = std::min<std::uint64_t>(image[0], longest_side) * channels * sizeof(float) *
-                     std::min<std::uint64_t>(image[1], rows);
-  if (tile[0] == 0 && bytes > most)
-    throw bad_input(in.path(), "header", fmt::format("{} bytes packed as one", bytes),
-                    fmt::format("at most {}", most));
+  const auto expect_few = [&](std::uint64_t width, std::uint64_t height) {
+    const auto bytes = std::min<std::uint64_t>(width, longest_side) * channels * sizeof(float) *
+                       std::min<std::uint64_t>(height, longest_side);
+    if (bytes > most)
+      throw bad_input(in.path(), "header", fmt::format("{} bytes packed as one", bytes),
+                      fmt::format("at most {}", most));
+  };
+  // An image has tiles if its version says so, too.
+  const bool has_tiles = (magic_and_version[1] & 0x200U) != 0 && tile[0] > 0;
+  if (!has_tiles) expect_few(image[0], std::min<std::uint64_t>(image[1], rows));
+  if (tile[0] > 0) expect_few(tile[0], tile[1]);
+  if (tile[1] > image[1]) expect_few(image[0], tile[1]);  // read as lines, it keeps a row of tiles
   // For rows and columns, too, it allocates on opening.
   [[maybe_unused]] static const bool limited = [] {  // once: every thread that reads shares them
     constexpr auto longest = static_cast<int>(longest_side);

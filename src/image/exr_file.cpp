@@ -39,7 +39,7 @@ class ExrFile : public ImageFile {
       if (header.hasTileDescription()) {
         block_width_ = header.tileDescription().xSize;
         block_height_ = header.tileDescription().ySize;
-        constexpr std::size_t most = std::size_t{1} << 22;
+        constexpr std::size_t most = std::size_t{1} << 22;  // of a part, beside its own pixels
         if (block_width_ * block_height_ > most)
           throw bad_input(path, "tiles", fmt::format("{} × {} pixels", block_width_, block_height_),
                           fmt::format("at most {}", most));
@@ -47,6 +47,8 @@ class ExrFile : public ImageFile {
         tiles_ = std::make_unique<Imf::TiledInputFile>(path.c_str(), 0);
       }
       lines_ = std::move(lines);
+      // What is packed as one is there twice, packed and not.
+      held_ = 2 * block_width_ * block_height_ * channels_.size() * sizeof(float);
     });
   }
 

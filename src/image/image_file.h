@@ -36,6 +36,9 @@ class ImageFile {
   std::size_t block_width() const { return block_width_; }
   std::size_t block_height() const { return block_height_; }
 
+  /// Bytes that it holds in memory while it is open.
+  std::size_t held() const { return held_; }
+
   /// Values of a part that lies within the image, rows one after the other.
   /// \param channels  indices into channels()
   /// \param to        for each of them room for the part
@@ -45,7 +48,7 @@ class ImageFile {
 
  protected:
   std::string path_;
-  std::size_t width_ = 0, height_ = 0, block_width_ = 1, block_height_ = 1;
+  std::size_t width_ = 0, height_ = 0, block_width_ = 1, block_height_ = 1, held_ = 0;
   std::vector<std::string> channels_;
 };
 

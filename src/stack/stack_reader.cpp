@@ -95,12 +95,29 @@ std::size_t StackReader::vectors(const std::string& name) {
   if (channels.empty()) channels = channels_among(*file, rgb);
   if (channels.empty()) refuse_channels(*file, "X, Y and Z, or R, G and B");
   const std::size_t numbers = file->channels().size();
-  maps_.push_back({path, channels, std::move(file), stamp, numbers});
+  maps_.push_back({path, channels, nullptr, stamp, numbers});
+  keep(maps_.back(), std::move(file));
   return maps_.size() - 1;
 }
 
-StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
-  constexpr std::size_t kept_open = 256;  // a PNG that is opened again is read from its top
+namespace {
+
+/// Bytes that files may hold which stay open, and once more those that are opened anew for a part.
+constexpr std::size_t most_held = std::size_t{1} << 29;
+
+}  // namespace
+
+void StackReader::keep(Source& source, std::unique_ptr<ImageFile> file) {
+  constexpr std::size_t most_files = 512;  // a PNG that is opened again is read from its top
+  source.held = file->held();
+  if (kept_ == most_files || source.held > most_held - kept_bytes_) return;
+  ++kept_;
+  kept_bytes_ += source.held;
+  source.file = std::move(file);
+}
+
+StackReader::StackReader(Stack stack)
+    : stack_(std::move(stack)), opening_(std::make_unique<MemoryBudget>(most_held)) {
   for (const StackImage& image : stack_.images) {
     const std::string path = stack_.path_of(image.path);
     images_.push_back({path, {}, nullptr, InputFile(path).stamp()});
@@ -116,7 +133,7 @@ StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
       refuse_channels(*file, stack_.channels || images_.size() > 1
                                  ? fmt::format("{} among them", fmt::join(channels_, ", "))
                                  : "one, or R, G and B; or \"channels\" in the stack");
-    if (images_.size() <= kept_open) source.file = std::move(file);
+    keep(source, std::move(file));
     const auto map_of = [&](const auto& towards) {
       const auto* map = std::get_if<2>(&towards);
       return map ? vectors(map->path) : none;
@@ -124,7 +141,6 @@ StackReader::StackReader(Stack stack) : stack_(std::move(stack)) {
     light_maps_.push_back(map_of(image.light));
     view_maps_.push_back(map_of(image.view));
     shared_ = shared_ && light_maps_.back() == none && view_maps_.back() == none;
-    if (maps_.size() > kept_open) maps_.back().file.reset();
   }
   if (channels_.size() == 1) channels_ = {""};
   if (stack_.normals) normals_ = vectors(*stack_.normals);
@@ -166,11 +182,16 @@ void StackReader::read(const Source& source, const Rectangle& part, std::vector<
   std::vector<float*> planes;
   for (std::size_t c = 0; c < source.channels.size(); ++c)
     planes.push_back(to.data() + c * part.size());
-  const auto opened = source.file ? nullptr : open_image(source.path, stack_.linear);
-  ImageFile& file = source.file ? *source.file : *opened;
-  expect_unchanged(source, InputFile(source.path));
-  file.read(part, source.channels, planes);
-  expect_unchanged(source, InputFile(source.path));
+  const auto read_from = [&](ImageFile& file) {
+    expect_unchanged(source, InputFile(source.path));
+    file.read(part, source.channels, planes);
+    expect_unchanged(source, InputFile(source.path));
+  };
+  if (source.file)
+    read_from(*source.file);
+  else
+    opening_->with(static_cast<double>(source.held),
+                   [&] { read_from(*open_image(source.path, stack_.linear)); });
 }
 
 void StackReader::read_vectors(std::size_t map,

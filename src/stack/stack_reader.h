@@ -11,6 +11,7 @@
 
 #include "base/file.h"
 #include "base/memory.h"
+#include "base/memory_budget.h"
 #include "image/image_file.h"
 #include "stack/stack.h"
 
@@ -78,10 +79,13 @@ class StackReader {
         file;  ///< kept open where there are few; used by one thread at a time
     InputFile::Stamp opened{};
     std::size_t numbers = 0;  ///< of a texel, channels that are not read included
+    std::size_t held = 0;     ///< bytes, while it is open
   };
   void make_digest();
   static void expect_unchanged(const Source&, const InputFile& now);
   std::unique_ptr<ImageFile> open(const std::string& path);
+  /// Keeps a file open where those that are leave it room.
+  void keep(Source&, std::unique_ptr<ImageFile>);
   std::size_t vectors(const std::string& name);
   void read(const Source&, const Rectangle&, std::vector<float>& to) const;
   void read_vectors(std::size_t map, const Rectangle&, std::vector<float>& to) const;
@@ -104,6 +108,8 @@ class StackReader {
   std::unordered_map<std::string, std::size_t> map_number_;  ///< by path
   std::vector<std::size_t> light_maps_, view_maps_;  ///< of each image: index into maps_, or none
   std::size_t normals_ = none;
+  std::size_t kept_ = 0, kept_bytes_ = 0;  ///< files that stay open
+  std::unique_ptr<MemoryBudget> opening_;  ///< of those that do not
 };
 
 }  // namespace gonio

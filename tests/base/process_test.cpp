@@ -54,6 +54,70 @@ TEST(Program, ThatRunsTooLongIsEnded) {
   EXPECT_LT(std::chrono::steady_clock::now() - start, std::chrono::seconds(30));
 }
 
+TEST(Copy, GivesWhatItReturnsOrNothingWhereItDoesNot) {
+  EXPECT_EQ(answer_of_copy([] { return std::string(200'000, 'x'); }, 1 << 20),
+            std::string(200'000, 'x'));
+  EXPECT_EQ(answer_of_copy([]() -> std::string { ::_exit(1); }, 10), "");
+  EXPECT_EQ(answer_of_copy(
+                []() -> std::string {
+                  ::raise(SIGKILL);
+                  return "x";
+                },
+                10),
+            "");
+}
+
+TEST(Copy, EndsWithItsProcess) {
+  const test::Folder f;
+  const pid_t middle = ::fork();
+  if (middle == 0) {
+    answer_of_copy(
+        [&] {
+          f.write("copy", std::to_string(::getpid()) + "\n");
+          std::this_thread::sleep_for(std::chrono::seconds(60));
+          return std::string();
+        },
+        10);
+    ::_exit(0);
+  }
+  std::string number;
+  for (int k = 0; k < 1000 && !number.ends_with('\n'); ++k) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    if (std::filesystem::exists(f / "copy")) number = test::read_bytes(f / "copy");
+  }
+  ASSERT_TRUE(number.ends_with('\n'));
+  number.pop_back();
+  ::kill(middle, SIGKILL);
+  ::waitpid(middle, nullptr, 0);
+  // A process that has ended may stay as a zombie where nobody waits for it.
+  const auto lives = [&] {
+    std::ifstream file("/proc/" + number + "/stat");
+    const std::string stat{std::istreambuf_iterator<char>(file), {}};
+    const auto at = stat.rfind(") ");
+    return at != stat.npos && stat[at + 2] != 'Z';
+  };
+  for (int k = 0; k < 1000 && lives(); ++k)
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+  EXPECT_FALSE(lives());
+}
+
+TEST(Copy, LeavesTheFilesOfItsProcessWhereASignalEndsIt) {
+  const test::Folder f;
+  OutputFile out(f / "a");
+  remove_unfinished_files_on_signals();
+  EXPECT_EQ(answer_of_copy(
+                []() -> std::string {
+                  ::raise(SIGTERM);
+                  return "x";
+                },
+                10),
+            "");
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) ::signal(signal, SIG_DFL);
+  EXPECT_TRUE(std::filesystem::exists(out.temporary_path()));
+  out.write("whole");
+  out.commit();
+}
+
 TEST(Program, KnowsItself) {
   const auto found =
       run_program(this_program(), std::vector<std::string>{"--gtest_list_tests"}, "", 30);

@@ -10,6 +10,8 @@
 #include "image/exr.h"
 #include "png_pixels.h"
 
+#include <fmt/format.h>
+
 namespace gonio::test {
 namespace {
 
@@ -238,6 +240,32 @@ TEST(ExportCommand, WritesTheEndOfARangeAndSaysSo) {
   EXPECT_EQ(said["clamped"].size(), 1U);
   EXPECT_GT(said["renamed"]["rms"], 0.01);
   EXPECT_LE(said["parameters"]["alpha_u"], 1);
+}
+
+TEST(ExportCommand, KeepsTheFitOfAFileThatItWroteAndNotThatFile) {
+  const Folder f;
+  make_fit(f, "lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.4 f0=0.12 kd=0.3,0.2,0.1");
+  f.write("d.csv", "theta_i,phi_i,theta_o,phi_o\n30,0,35,170\n");
+  const auto rows = gonio(f, "eval fit.json --directions d.csv --json").json()["rows"];
+  std::string from = "fit.json";
+  for (const auto& [target, name] :
+       {std::pair("mitsuba", "a.xml"), std::pair("mitsuba", "b.xml"), std::pair("gltf", "c.gltf"),
+        std::pair("usd_preview", "d.usda"), std::pair("open_pbr", "e.mtlx"),
+        std::pair("gltf", "f.gltf")}) {
+    const auto o = gonio(f, fmt::format("export {} --to {} -o {}", from, target, name));
+    ASSERT_LE(o.code, 1) << o.err;
+    const auto read = gonio(f, fmt::format("eval {} --directions d.csv --json", name));
+    ASSERT_EQ(read.code, 0) << name << read.err;
+    EXPECT_EQ(read.json()["rows"], rows) << name;
+    from = name;
+  }
+  EXPECT_EQ(read_bytes(f / "a.xml"), read_bytes(f / "b.xml")) << "as often as one likes";
+  // What is no text stands around the fit.
+  std::string bytes = read_bytes(f / "a.xml");
+  bytes.insert(bytes.find("?>"), "\x80");
+  f.write("bytes.xml", bytes);
+  EXPECT_LE(gonio(f, "export bytes.xml --to usd_preview -o u.usda").code, 1);
+  EXPECT_EQ(read_bytes(f / "u.usda").find('\x80'), std::string::npos);
 }
 
 TEST(ExportCommand, RefusesExportedFilesWithoutAFit) {

@@ -7,6 +7,7 @@
 #include "cli/program.h"
 #include "image/exr.h"
 
+#include <fmt/format.h>
 #include <sys/resource.h>
 
 namespace gonio::test {
@@ -241,6 +242,23 @@ TEST(FitMapCommand, OverwritesNothingThatItReads) {
                         {"gather t -o t/../t/tile_0_0.exr", "is an input"}});
   EXPECT_EQ(read_bytes(f / "s/image_000.exr"), image);
   EXPECT_EQ(read_bytes(f / "t/tile_0_0.exr"), tile);
+}
+
+TEST(FitMapCommand, TakesNoTileAwayThatIsAnInput) {
+  const Folder f;
+  make_stack(f);
+  fs::create_directory(f / "s/m.exr.tiles");
+  std::string stack = read_bytes(f / "s/stack.json");
+  for (int k = 0; k < 2; ++k) {
+    const std::string image = fmt::format("image_00{}.exr", k),
+                      tile = fmt::format("m.exr.tiles/tile_{}_0.exr", k);
+    fs::rename(f / ("s/" + image), f / ("s/" + tile));
+    stack.replace(stack.find(image), image.size(), tile);
+  }
+  f.write("s/stack.json", stack);
+  expect_one_line(gonio(f, "fit_map s/stack.json -o s/m.exr " + model), 2, "is an input");
+  for (int k = 0; k < 2; ++k)
+    EXPECT_TRUE(fs::exists(f / fmt::format("s/m.exr.tiles/tile_{}_0.exr", k))) << k;
 }
 
 TEST(FitMapCommand, RefusesTilesOfOtherOptionsAndKeepsThem) {

@@ -42,7 +42,8 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
     EXPECT_TRUE(l.size() <= 64 || l.find(' ', l.find_first_not_of(' ')) == l.npos) << l;
   const std::string piped = gonio(f, "fit t.csv").out;
   EXPECT_NE(piped.find("beware  the model misses"), piped.npos);
-  EXPECT_NE(piped.find("; intervals include this\nbeware  the largest deviation that is no noise is near theta_h "),
+  EXPECT_NE(piped.find("; intervals include this\nbeware  the largest deviation that is no noise "
+                       "is near theta_h "),
             piped.npos)
       << piped;
 }

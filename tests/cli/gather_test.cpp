@@ -2,6 +2,7 @@
 #include <filesystem>
 
 #include "cli/program.h"
+#include "image/exr.h"
 
 namespace gonio::test {
 namespace {
@@ -46,6 +47,19 @@ TEST(GatherCommand, NamesTheTilesThatAreMissingAndWritesNoMap) {
   make_tiles(f);
   fs::remove(f / "t/tile_0_1.exr");
   expect_one_line(gonio(f, "gather t -o joined.exr"), 3, "t: tiles: found 3 of 4, without 0,1");
+  EXPECT_FALSE(fs::exists(f / "joined.exr"));
+}
+
+TEST(GatherCommand, OpensNoShaderElsewhereThatTilesName) {
+  const Folder f, other;
+  make_tiles(f);
+  other.write("my.glsl", "words that nobody shall see");
+  for (const char* name : {"tile_0_0.exr", "tile_1_0.exr", "tile_0_1.exr", "tile_1_1.exr"}) {
+    Image tile = read_exr(f / (std::string("t/") + name));
+    tile.attributes["gonio:model"] = (other / "my.glsl") + ":brdf";
+    write_exr(f / (std::string("t/") + name), tile);
+  }
+  expect_one_line(gonio(f, "gather t -o joined.exr --json"), 3, "--follow-paths");
   EXPECT_FALSE(fs::exists(f / "joined.exr"));
 }
 

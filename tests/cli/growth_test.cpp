@@ -110,6 +110,38 @@ TEST(Growth, OfAFitWithTheChannelsOfATableIsLinear) {
       "fit t.csv --model lambert --jobs 1 -o fit.json", 150);
 }
 
+TEST(Growth, OfTheFunctionsOfAShaderIsLinear) {
+  expect_linear(
+      [](const Folder& f, int n) {
+        f.write("m.glsl", repeated(n, [](int i) {
+                  const auto k = std::to_string(i);
+                  return "float D" + k + "(float NoH, float alpha) { return NoH * " + k +
+                         ".5 + alpha; }\n";
+                }));
+      },
+      "models m.glsl --json", 100);
+}
+
+TEST(Growth, OfTheParametersThatAShaderDeclaresIsLinear) {
+  expect_linear(
+      [](const Folder& f, int n) {
+        f.write("m.glsl",
+                "float D(float NoH, float alpha) { return NoH + alpha; }\n" +
+                    repeated(n, [](int i) { return "// a" + std::to_string(i) + " 0.1 1 0.2\n"; }));
+      },
+      "models m.glsl --json", 1500);
+}
+
+TEST(Growth, OfTheHyphensOfAnExportedFitIsLinear) {
+  expect_linear(
+      [](const Folder& f, int n) {
+        f.write("fit.json", R"({"schema": "gonio.fit/1", "model": "lambert", "channels": ["f"],
+          "note": ")" + std::string(static_cast<std::size_t>(n), '-') +
+                                R"(", "parameters": {"kd": {"value": 0.2}}})");
+      },
+      "export fit.json --to mitsuba -o m.xml", 100'000);
+}
+
 /// A scene of objects of one material.
 std::string scene_of(const std::string& objects) {
   return R"({"schema": "gonio.scene/1", "materials": {"m": {"model": "lambert"}}, "objects": [)" +

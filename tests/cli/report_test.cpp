@@ -5,6 +5,7 @@
 #include <set>
 
 #include "cli/program.h"
+#include "image/exr.h"
 #include "reports/picture/figure.h"
 
 #include <unistd.h>
@@ -112,6 +113,17 @@ TEST(ReportCommand, TakesAwayThePicturesThatOnlyAnEarlierRunHas) {
   EXPECT_TRUE(fs::is_symlink(f / "out/schlick/old_link.svg"));
   EXPECT_TRUE(fs::is_directory(f / "out/schlick/old_folder.svg"));
   EXPECT_NE(read_bytes(f / "out/schlick/colour_difference_gold_1.svg"), "earlier");
+}
+
+TEST(ReportCommand, TakesNoPictureAwayThatIsAnInput) {
+  const Folder f;
+  fs::create_directories(f / "out/schlick");
+  Image sky{4, 2, {"B", "G", "R"}, std::vector(3, std::vector<float>(8, 1.0F)), {}};
+  write_exr(f / "out/schlick/sky.exr", sky);
+  f.write("out/schlick.json", R"({"schema":"gonio.report.schlick/1","maps":[{"id":"sky"}]})");
+  const auto o = gonio(f, "report schlick --environment out/schlick/sky.exr -o out");
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_TRUE(fs::exists(f / "out/schlick/sky.exr"));
 }
 
 TEST(ReportCommand, TakesNothingAwayForADocumentThatIsNotItsOwn) {

@@ -5,6 +5,7 @@
 
 #include "cli/program.h"
 
+#include <fmt/format.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
@@ -35,15 +36,18 @@ std::map<std::string, std::string> visible(const Folder& folder) {
 TEST(Surroundings, AFullDiskLeavesNothingBehind) {
   const Folder f;
   f.write("t.csv", small_table());
+  f.write("c.json", R"({"schema": "gonio.choice/1", "model": "ggx/schlick_ggx.half_alpha/schlick",
+    "domain": {"roughness": [0.4, 1], "f0": 0.04}, "budgets": {"operations": 1}})");
   // A limit of the size of files fails the write as a full disk does, in the middle of a file.
   for (const char* words :
        {"fit t.csv --model lambert -o r.json", "fit t.csv --model lambert --html r.html",
         "fit t.csv --model lambert -o r.json --html r.html", "synth lambert --layout mbsdf -o s",
         "synth lambert --layout random -o s.csv", "synth lambert --layout image_slice -o s.exr",
-        "eval lambert --directions t.csv -o e.csv"}) {
+        "eval lambert --directions t.csv -o e.csv",
+        "validate c.json --junit small.xml --sarif large.sarif"}) {
     const auto o = gonio(f, words, "ulimit -f 1; ");
     expect_one_line(o, 3, ": ");
-    EXPECT_EQ(f.entries(), 1U) << words;
+    EXPECT_EQ(f.entries(), 2U) << words;
   }
 }
 
@@ -350,6 +354,34 @@ TEST(Surroundings, ADocumentNamesNoFilesOutsideItsFolder) {
     const auto followed = gonio(f, std::string(words) + " --follow-paths");
     EXPECT_EQ(followed.err.find("--follow-paths"), followed.err.npos) << followed.err;
     EXPECT_EQ(followed.code, 3) << "it is read, and no fit";
+  }
+}
+
+TEST(Surroundings, AFitTakesAShaderBesideItselfOnly) {
+  const Folder f;
+  std::filesystem::create_directory(f / "in");
+  std::filesystem::create_directory(f / "out");
+  f.write("out/my.glsl", "words that nobody shall see");
+  f.write("d.csv", "theta_i,phi_i,theta_o,phi_o\n10,0,10,180\n");
+  f.write("in/scene.json",
+          R"({"schema": "gonio.scene/1", "materials": {"a": {"fit": "fit.json"}},
+          "objects": [{"shape": "sphere", "material": "a"}],
+          "lights": [{"type": "directional", "direction": [0, 1, 0], "irradiance": [1, 1, 1]}],
+          "view": {"position": [0, 0, 10], "target": [0, 0, 0], "fov_deg": 20},
+          "tolerance": {"metric": "delta_e_2000", "quantile": 0.9, "limit": 1, "max": 4}})");
+  for (const char* name : {"out/my.glsl", "../out/my.glsl", "./////../out/my.glsl"}) {
+    f.write("in/fit.json", fmt::format(R"({{"schema": "gonio.fit/1", "model": "{}:brdf",
+          "channels": ["r", "g", "b"], "parameters": {{}}}})",
+                                       name));
+    for (const char* words :
+         {"eval in/fit.json --directions d.csv --json", "render in/scene.json -o p.png",
+          "export in/fit.json --to gltf -o o.gltf", "albedo in/fit.json --json"}) {
+      const auto o = gonio(f, words);
+      expect_one_line(o, 3, "--follow-paths");
+      EXPECT_EQ(o.err.find("words"), o.err.npos) << o.err;
+      const auto followed = gonio(f, std::string(words) + " --follow-paths");
+      EXPECT_EQ(followed.err.find("--follow-paths"), followed.err.npos) << followed.err;
+    }
   }
 }
 

@@ -235,6 +235,53 @@ TEST(Exr, RefusesChannelsOfWhichTheLinesPackedAsOneFillTheMemory) {
   const ExrHeader h = ExrHeader().add("channels", "chlist", channels + '\0').add_rest(16'384, 1);
   EXPECT_HAS(test::refusal([&] { read_exr_header(folder.write("c.exr", h.text())); }),
              "bytes packed as one");
+  // What OpenEXR does not go by changes nothing.
+  channels.clear();
+  for (int c = 0; c < 2000; ++c)
+    channels += std::to_string(c) + '\0' + ExrHeader::words({2, 0, 1, 1});
+  const std::string zip = std::string("compression\0compression\0", 24) + ExrHeader::words({1});
+  for (const auto& [type, value] : {std::pair("tiledesc", ExrHeader::words({16, 16}) + '\0'),
+                                    std::pair("compression", std::string(1, '\0'))}) {
+    std::string text = ExrHeader()
+                           .add("channels", "chlist", channels + '\0')
+                           .add_rest(16'384, 16)
+                           .add("zz", type, value)
+                           .text();
+    text[text.find(zip) + zip.size()] = 3;
+    EXPECT_HAS(test::refusal([&] { read_exr_header(folder.write("z.exr", text)); }),
+               "bytes packed as one")
+        << type;
+  }
+}
+
+TEST(Exr, RefusesTilesWhoseChannelsFillTheMemory) {
+  const Folder folder;
+  std::string channels;
+  for (int c = 0; c < 100; ++c)
+    channels += std::to_string(c) + '\0' + ExrHeader::words({2, 0, 1, 1});
+  const auto refused = [&](std::uint32_t tile_width, std::uint32_t tile_height) {
+    std::string text =
+        ExrHeader()
+            .add("channels", "chlist", channels + '\0')
+            .add("tiles", "tiledesc", ExrHeader::words({tile_width, tile_height}) + '\0')
+            .add_rest(16'384, 1)
+            .text();
+    text[5] = 2;  // tiled
+    text.append(std::size_t{8} * 16'384, '\0');
+    return test::refusal([&] { read_exr_header(folder.write("t.exr", text)); });
+  };
+  EXPECT_HAS(refused(2048, 2048), "bytes packed as one");
+  EXPECT_HAS(refused(1, 2048), "bytes packed as one") << "of lines a row of tiles is kept";
+}
+
+TEST(Exr, RefusesASecondAttributeOfAName) {
+  const Folder folder;
+  const ExrHeader h = ExrHeader()
+                          .add("compression", "compression", "\3")
+                          .add("compression", "compression", std::string(1, '\0'))
+                          .add_rest(16, 1);
+  EXPECT_HAS(test::refusal([&] { read_exr_header(folder.write("c.exr", h.text())); }),
+             "attribute compression: found a second one");
 }
 
 }  // namespace

@@ -2,9 +2,12 @@
 #include "validate/choice.h"
 
 #include <cmath>
+#include <filesystem>
 
 #include "base/error.h"
 #include "optics/refractive_index.h"
+#include "refusal.h"
+#include "support.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -91,6 +94,25 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
   json j = plain();
   j.erase("reference");
   EXPECT_THROW(parsed(j), Error) << "albedo_error compares with nothing";
+}
+
+TEST(Choice, NamesNoFileOutsideItsFolder) {
+  const test::Folder f;
+  f.write("key.glsl", "words that nobody shall see");
+  std::filesystem::create_directory(f / "in");
+  const auto refused = [&](const json& j) {
+    return test::refusal([&] { parse_choice(f / "in/c.json", j.dump()); });
+  };
+  for (const std::string& name : {std::string("../key.glsl:brdf"), (f / "key.glsl") + ":brdf"}) {
+    json j = plain();
+    j["budgets"]["ns"] = {{"limit", 2}, {"baseline", name}};
+    EXPECT_HAS(refused(j), "--follow-paths");
+    for (const char* key : {"model", "reference"}) {
+      json k = plain();
+      k[key] = name;
+      EXPECT_HAS(refused(k), "--follow-paths") << key;
+    }
+  }
 }
 
 TEST(Choice, LaysACoatOnDiffuseTermsAlone) {

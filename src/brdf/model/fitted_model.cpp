@@ -79,6 +79,17 @@ FittedModel read_fitted_model(const std::string& path) {
   return parse_fitted_model(path, in.read_rest(most_document_bytes));
 }
 
+std::string fit_document(const std::string& path, const std::string& bytes) {
+  std::string text = document_in(path, bytes);
+  const JsonDocument document(path, text);
+  if (document.root().has("asset")) return text_of(fit_in(document).json());
+  if (text.size() == bytes.size()) return text;
+  // Around it in a comment stand the ends of lines.
+  if (text.starts_with('\n')) text.erase(0, 1);
+  if (text.ends_with('\n')) text.pop_back();
+  return text;
+}
+
 FittedModel parse_fitted_model(const std::string& path, const std::string& bytes) {
   return fitted_model({path, document_in(path, bytes)});
 }
@@ -101,7 +112,7 @@ void expect_known_scale(const std::string& path, const FittedModel& fitted) {
 BoundModel bind_fitted(const std::string& path,
                        const FittedModel& fitted,
                        std::optional<std::size_t> channels) {
-  expect_own_files_below(path, fitted.model);
+  const std::string model = own_files_of_fit(path, fitted.model);
   expect_known_scale(path, fitted);
   std::vector<Setting> settings;
   for (const auto& [name, values] : fitted.parameters) {
@@ -115,7 +126,7 @@ BoundModel bind_fitted(const std::string& path,
     settings.push_back({name, values});
   }
   try {
-    BoundModel b = bind_model(fitted.model, settings, channels);
+    BoundModel b = bind_model(model, settings, channels);
     for (const auto& p : b.model.parameters)
       if (std::ranges::find(b.given, p.name) == b.given.end())
         throw wrong_usage("nothing for '" + p.name + "'");

@@ -25,6 +25,9 @@ struct FittedModel {
 /// \param head  first 256 bytes of a file, or all
 bool begins_as_fit(std::string_view head);
 FittedModel read_fitted_model(const std::string& path);
+/// A fit's own document in bytes that begins_as_fit(): what gonio export put into another file, or all.
+/// \param path  named in errors
+std::string fit_document(const std::string& path, const std::string& bytes);
 /// Model in a document's bytes.  \param path  named in errors
 FittedModel parse_fitted_model(const std::string& path, const std::string& bytes);
 

@@ -54,6 +54,31 @@ std::string own_files_beside(const std::string& document, const std::string& spe
       document);
 }
 
+std::string own_files_of_fit(const std::string& document, const std::string& spec) {
+  const auto is_there = [](const std::string& file) {
+    std::error_code unknown;
+    return std::filesystem::exists(file, unknown);
+  };
+  const auto path_of = [&](const std::string& file) {
+    const auto beside = path_beside(document, file);
+    if (is_there(beside) || !is_there(file)) return beside;
+    try {
+      path_beside(document, std::filesystem::absolute(file).string());
+    } catch (const Error&) {
+      throw bad_input(document, "model", file, "a shader beside the document, or --follow-paths");
+    }
+    return file;
+  };
+  const auto change = [&](const std::string& name) { return with_file(name, path_of); };
+  try {
+    return with_own_names(spec, change, document);
+  } catch (const Error& e) {
+    if (e.code() != Exit::usage) throw;
+    if (!names_own_file(spec)) return spec;  // no model: whoever reads it says where that stands
+    return with_own_names(spec, change);     // slashes of a path that leads to a file from here
+  }
+}
+
 std::string own_files_as_named(const std::string& document, const std::string& spec) {
   const auto folder = std::filesystem::path(document).parent_path();
   if (folder.empty()) return spec;

@@ -35,6 +35,10 @@ std::string with_own_names(std::string_view spec,
 /// The spec of a document with the paths of its files as the working folder sees them.
 /// \throws Error  bad input of the document where a file lies outside its folder, unless follow_paths() was called
 std::string own_files_beside(const std::string& document, const std::string& spec);
+/// The spec of a fit's document with the paths of its files as the working folder sees them: beside the document; with follow_paths()
+/// also as the working folder of the fit saw them, where there is none beside it.
+/// \throws Error  bad input of the document where a file lies elsewhere, unless follow_paths() was called
+std::string own_files_of_fit(const std::string& document, const std::string& spec);
 /// The same spec back as the document has it: without the document's folder.
 std::string own_files_as_named(const std::string& document, const std::string& spec);
 /// The files of some specs, each once.  A spec that is none has none.

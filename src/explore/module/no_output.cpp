@@ -2,6 +2,7 @@
 // time models by.
 #include <limits>
 
+#include "base/earlier_file.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "table/format/exr_slice.h"
@@ -12,6 +13,10 @@ namespace gonio {
 
 void will_read(const std::string&) {}
 void may_replace(const std::string&) {}
+void expect_no_input(const std::string&) {}
+bool remove_unless_input(const std::string&) {
+  return false;
+}
 OutputFile::OutputFile(std::string path) {
   throw wrong_usage(path + ": a page writes no files");
 }

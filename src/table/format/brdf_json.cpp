@@ -3,14 +3,18 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <map>
 #include <numbers>
 #include <optional>
-#include <tuple>
+#include <set>
+#include <utility>
+#include <vector>
 
 #include "base/blanks.h"
 #include "base/error.h"
+#include "base/few.h"
 #include "base/json/reader.h"
 #include "base/numbers.h"
 #include "table/format/delimited.h"
@@ -31,73 +35,136 @@ bool json_with(std::string_view head, std::initializer_list<std::string_view> ke
              keys, [&](auto key) { return head.find(fmt::format("\"{}\"", key)) != head.npos; });
 }
 
-/// Samples by their directions, channels by their wavelengths, in the order of the file.
+/// Samples by their directions, channels by their wavelengths, in the order of the file.  A value takes 16 bytes until the table is
+/// made: files have two for it at least.
 class Geometries {
  public:
-  /// \param label  what else tells samples apart
-  /// \param u      standard uncertainty of f; NaN: none is stated
-  void add(std::array<double, 4> deg,
-           const std::string& label,
+  using Deg = std::array<double, 4>;
+  /// Directions that no others are the same as.  \return their number, from 0 on
+  std::uint32_t add_place(const Deg& deg) {
+    places_.push_back(upright(deg));
+    return static_cast<std::uint32_t>(places_.size() - 1);
+  }
+  /// Number of directions, which are the same where the label is, too.
+  std::uint32_t place_of(const Deg& deg, const std::string& label) {
+    const auto number = labels_.try_emplace(label, labels_.size()).first->second;
+    const auto [at, is_new] = known_.try_emplace(std::pair(upright(deg), number), 0);
+    if (is_new) at->second = add_place(deg);
+    return at->second;
+  }
+  /// \param u  standard uncertainty of f; NaN: none is stated
+  void add(std::uint32_t place,
            double wavelength_nm,
            double f,
            double u = std::numeric_limits<double>::quiet_NaN()) {
-    for (const std::size_t k : {0U, 2U})
-      if (deg[k] < 0) deg[k] = -deg[k], deg[k + 1] += 180;
     const auto channel = channels_.try_emplace(wavelength_nm, channels_.size()).first->second;
-    auto& taken = taken_[std::tuple{deg, label, wavelength_nm}];
-    const auto [at, added] =
-        samples_.try_emplace(std::tuple{deg, label, taken}, list_.theta_i_deg.size());
-    ++taken;  // measured once more: a sample of its own
-    if (added) {
-      list_.theta_i_deg.push_back(deg[0]);
-      list_.phi_i_deg.push_back(deg[1]);
-      list_.theta_o_deg.push_back(deg[2]);
-      list_.phi_o_deg.push_back(deg[3]);
+    if (!std::isnan(u)) {
+      errors_.resize(values_.size(), std::numeric_limits<double>::quiet_NaN());
+      errors_.push_back(u);
     }
-    values_.push_back({at->second, channel, f, u});
+    values_.push_back({place, static_cast<std::uint32_t>(channel), f});
   }
-  /// False where that is more than a table holds.
-  bool has_room(std::size_t channels) const {
-    const std::size_t samples = list_.theta_i_deg.size(),
-                      all = std::max(channels, channels_.size());
-    return all <= most_channels && samples * (4 + std::max<std::size_t>(1, all)) <= most_values;
+  void reserve(std::size_t values) { values_.reserve(values); }
+
+  /// Refuses more than a table holds.
+  void expect_room(const JsonReader& j, std::size_t channels) const {
+    expect_room(j, places_.size(), channels);
   }
-  /// Else a small file asks for much memory: each sample has room for every channel.
-  bool is_mostly_filled() const {
-    return list_.theta_i_deg.size() * channels_.size() <= 8 * values_.size() + 64;
-  }
-  Table table(const std::string& format) {
+  /// Refuses also other wavelengths at most directions: each sample has room for every channel, and a small file would ask for much
+  /// memory.
+  Table table(const JsonReader& j, const std::string& format) {
+    expect_filled(j, places_.size());
+    make_samples();
+    const std::size_t samples = directions_.theta_i_deg.size();
+    expect_room(j, samples, channels_.size());
+    expect_filled(j, samples);
+
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
     Table t;
     t.format = format;
-    std::vector<std::size_t> place(channels_.size());  // by wavelength
-    for (const auto& [nm, channel] : channels_) {
-      place[channel] = t.channels.size();
-      t.channels.push_back(channels_.size() == 1 ? "f" : fmt::format("{:g}", nm));
+    const auto order = name_channels(t);
+    t.values.assign(t.channels.size(), Values(samples, none));
+    if (std::ranges::any_of(errors_, [](double u) { return u > 0; })) t.errors = t.values;
+    for (std::size_t k = 0; k < values_.size(); ++k) {
+      const auto& v = values_[k];
+      t.values[order[v.channel]][v.place] = v.f;
+      if (!t.errors.empty())
+        t.errors[order[v.channel]][v.place] = k < errors_.size() ? errors_[k] : none;
     }
-    if (channels_.size() == 1 && channels_.begin()->first > 0)
-      t.notes.emplace_back("wavelength", fmt::format("{:g} nm", channels_.begin()->first));
-    t.values.assign(t.channels.size(),
-                    Values(list_.theta_i_deg.size(), std::numeric_limits<double>::quiet_NaN()));
-    if (std::ranges::any_of(values_, [](const Value& v) { return v.u > 0; })) t.errors = t.values;
-    for (const auto& v : values_) {
-      t.values[place[v.channel]][v.sample] = v.f;
-      if (!t.errors.empty()) t.errors[place[v.channel]][v.sample] = v.u;
-    }
-    t.where = std::move(list_);
+    t.where = std::move(directions_);
     return t;
   }
 
  private:
+  /// The same directions without a negative zenith angle.
+  static Deg upright(Deg deg) {
+    for (const std::size_t k : {0U, 2U})
+      if (deg[k] < 0) deg[k] = -deg[k], deg[k + 1] += 180;
+    return deg;
+  }
   struct Value {
-    std::size_t sample, channel;
-    double f, u;
+    std::uint32_t place, channel;
+    double f;
   };
-  using Deg = std::array<double, 4>;
+
+  void expect_room(const JsonReader& j, std::size_t samples, std::size_t channels) const {
+    const std::size_t all = std::max(channels, channels_.size());
+    if (all > most_channels || samples * (4 + std::max<std::size_t>(1, all)) > most_values)
+      j.fail(fmt::format("at most {} numbers and {} wavelengths", most_values, most_channels));
+  }
+  void expect_filled(const JsonReader& j, std::size_t samples) const {
+    if (samples * channels_.size() > 8 * values_.size() + 64)
+      j.fail("other wavelengths at most directions", "all wavelengths at most of them");
+  }
+  /// Gives each value a sample in place of its directions: measured once more, they are a sample of their own.
+  void make_samples() {
+    known_.clear();
+    labels_.clear();
+    constexpr auto none = std::numeric_limits<std::uint32_t>::max();
+    std::vector<std::uint32_t> times(places_.size() * channels_.size()),
+        first(places_.size(), none);
+    std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> again;
+    for (auto& v : values_) {
+      const auto n = times[v.place * channels_.size() + v.channel]++;
+      auto& sample = n == 0 ? first[v.place] : again.try_emplace({v.place, n}, none).first->second;
+      if (sample == none) {
+        const auto& deg = places_[v.place];
+        sample = static_cast<std::uint32_t>(directions_.theta_i_deg.size());
+        directions_.theta_i_deg.push_back(deg[0]);
+        directions_.phi_i_deg.push_back(deg[1]);
+        directions_.theta_o_deg.push_back(deg[2]);
+        directions_.phi_o_deg.push_back(deg[3]);
+      }
+      v.place = sample;
+    }
+  }
+  /// Names the channels after their wavelengths, ascending.  \return their places by the order of the file
+  std::vector<std::size_t> name_channels(Table& t) const {
+    std::vector<std::size_t> order(channels_.size());
+    for (const auto& [nm, channel] : channels_) {
+      order[channel] = t.channels.size();
+      t.channels.push_back(fmt::format("{:g}", nm));
+    }
+    const std::set<std::string_view> rounded(t.channels.begin(), t.channels.end());
+    if (rounded.size() < t.channels.size()) {  // all digits tell any two apart
+      t.channels.clear();
+      for (const auto& [nm, channel] : channels_) t.channels.push_back(fmt::format("{}", nm));
+    }
+    if (channels_.size() == 1) {
+      t.channels = {"f"};
+      if (const double nm = channels_.begin()->first; nm > 0)
+        t.notes.emplace_back("wavelength", fmt::format("{:g} nm", nm));
+    }
+    return order;
+  }
+
   std::map<double, std::size_t> channels_;
-  std::map<std::tuple<Deg, std::string, double>, std::size_t> taken_;
-  std::map<std::tuple<Deg, std::string, std::size_t>, std::size_t> samples_;
-  DirectionList list_;
+  std::map<std::string, std::size_t> labels_;
+  std::map<std::pair<Deg, std::size_t>, std::uint32_t> known_;
+  std::vector<Deg> places_;
+  DirectionList directions_;
   std::vector<Value> values_;
+  std::vector<double> errors_;  ///< of the first values
 };
 
 double number_within(const JsonReader& j, double least, double most, const std::string& what) {
@@ -125,15 +192,6 @@ double uncertainty_in(const JsonReader& j, const JsonReader& f) {
   return v;
 }
 
-void expect_room(const JsonReader& j, const Geometries& all, std::size_t channels) {
-  if (!all.has_room(channels))
-    j.fail(fmt::format("at most {} numbers and {} wavelengths", most_values, most_channels));
-}
-void expect_filled(const JsonReader& j, const Geometries& all) {
-  if (!all.is_mostly_filled())
-    j.fail("other wavelengths at most directions", "all wavelengths at most of them");
-}
-
 /// What head or metadata says in words and numbers.
 void add_notes(const JsonReader& about, Table& t, const std::string& before = "") {
   constexpr std::size_t most_notes = 64, longest = 400;
@@ -154,7 +212,7 @@ void tell_polarisation(const std::map<std::string, std::size_t>& counts, Table& 
   for (const auto& [how, n] : counts) each.push_back(fmt::format("{} {}", n, how));
   t.warnings.push_back(
       fmt::format("samples of polarised light ({}): a model of unpolarised light lies between them",
-                  fmt::join(each, ", ")));
+                  few_of(each)));
 }
 
 /// Cones by their solid angles, which files write like 1.2273E10-4 for 1.2273·10⁻⁴.
@@ -233,46 +291,62 @@ Table new_form(const JsonReader& data) {
     for (const auto k : labels) label += row.at(k).json().dump() + " ";
     if (polarisation && row.at(*polarisation).is_string())
       ++polarised[row.at(*polarisation).string()];
-    all.add(deg, label,
+    all.add(all.place_of(deg, label),
             wavelength == columns.end()
                 ? 0
                 : number_within(row.at(wavelength->second.index), 1, 1e6, "a wavelength"),
             value_in(row.at(f.index)),
             u ? u->scale * uncertainty_in(row.at(u->index), row.at(f.index)) : std::nan(""));
-    expect_room(row, all, 0);
+    all.expect_room(row, 0);
   }
-  expect_filled(rows, all);
-  Table t = all.table("brdf_json");
+  Table t = all.table(rows, "brdf_json");
   if (relative)
     for (std::size_t c = 0; c < t.errors.size(); ++c) make_absolute(t.errors[c], t.values[c]);
   tell_polarisation(polarised, t);
   return t;
 }
 
+/// Entries of an array, or one that stands without.  Unlike JsonReader::elements() it takes no memory for each: there may be as many
+/// as a file has digits.
+class Entries {
+ public:
+  explicit Entries(const JsonReader& all) : all_(all), size_(all.is_array() ? all.size() : 1) {}
+  std::size_t size() const { return size_; }
+  JsonReader operator[](std::size_t k) const { return all_.is_array() ? all_.at(k) : all_; }
+
+ private:
+  JsonReader all_;
+  std::size_t size_;
+};
+
+/// Counts the letters that say how each geometry's light is polarised.
+std::map<std::string, std::size_t> polarised_in(const JsonReader& data, std::size_t geometries) {
+  std::map<std::string, std::size_t> counts;
+  if (!data.has("pol")) return counts;
+  const auto said = data.at("pol");
+  const std::string letters = said.is_string() ? said.string() : "";
+  const bool each = said.is_array() && said.size() == geometries;
+  if (!each && letters.size() != geometries)
+    said.fail(fmt::format("one letter for each of {} geometries", geometries));
+  for (std::size_t g = 0; g < geometries; ++g)
+    if (const auto how = each ? said.at(g).string() : std::string(1, letters[g]); !how.empty())
+      ++counts[how];
+  return counts;
+}
+
 Table old_form(const JsonReader& data) {
-  const auto wavelengths = data.at("wavelengths").elements();
-  std::array<std::vector<JsonReader>, 4> angles;
+  const Entries wavelengths(data.at("wavelengths")), rows(data.at("data"));
   constexpr std::array names{"theta_i", "phi_i", "theta_v", "phi_v"};
-  for (std::size_t k = 0; k < 4; ++k) {
-    angles[k] = data.at(names[k]).elements();
-    if (angles[k].size() != angles[0].size())
-      data.at(names[k]).fail(fmt::format("{} angles", angles[k].size()),
-                             fmt::format("{}, as theta_i has", angles[0].size()));
+  std::vector<Entries> angles;
+  for (const auto* name : names) {
+    angles.emplace_back(data.at(name));
+    if (angles.back().size() != angles[0].size())
+      data.at(name).fail(fmt::format("{} angles", angles.back().size()),
+                         fmt::format("{}, as theta_i has", angles[0].size()));
   }
   const std::size_t geometries = angles[0].size(), bands = wavelengths.size();
-  std::vector<std::string> pol(geometries);
-  if (data.has("pol")) {
-    const auto said = data.at("pol");
-    const std::string letters = said.is_string() ? said.string() : "";
-    if (said.size() == geometries && said.is_array())
-      for (std::size_t g = 0; g < geometries; ++g) pol[g] = said.at(g).string();
-    else if (letters.size() == geometries)
-      for (std::size_t g = 0; g < geometries; ++g) pol[g] = letters[g];
-    else
-      said.fail(fmt::format("one letter for each of {} geometries", geometries));
-  }
-  const auto rows = data.at("data").elements();
-  const std::size_t length = rows.empty() ? 0 : rows[0].size();
+  const auto polarised = polarised_in(data, geometries);
+  const std::size_t length = rows.size() == 0 ? 0 : rows[0].size();
   const bool with_wavelength = rows.size() == bands && length == geometries + 1;
   const bool by_wavelength = with_wavelength || (rows.size() == bands && length == geometries);
   if (!by_wavelength && !(rows.size() == geometries && length == bands))
@@ -280,27 +354,33 @@ Table old_form(const JsonReader& data) {
                          fmt::format("{} rows of {} (a wavelength each) or {} of {} (a geometry "
                                      "each)",
                                      bands, geometries, geometries, bands));
+  if (bands > most_channels)
+    data.at("wavelengths").fail(fmt::format("{}", bands), fmt::format("at most {}", most_channels));
+  std::vector<double> nm;
+  for (std::size_t w = 0; w < bands; ++w)
+    nm.push_back(number_within(wavelengths[w], 1, 1e6, "a wavelength"));
   Geometries all;
-  std::map<std::string, std::size_t> polarised;
   for (std::size_t g = 0; g < geometries; ++g) {
     std::array<double, 4> deg{};
     for (std::size_t k = 0; k < 4; ++k)
       deg[k] = number_within(angles[k][g], k % 2 ? -720 : -90, k % 2 ? 720 : 90, "an angle");
-    if (!pol[g].empty()) ++polarised[pol[g]];
-    for (std::size_t w = 0; w < bands; ++w) {
-      const JsonReader& row = rows[by_wavelength ? w : g];
-      if (row.size() != length)
-        row.fail(fmt::format("{} entries", row.size()), fmt::format("{}", length));
-      const double nm = number_within(wavelengths[w], 1, 1e6, "a wavelength");
-      if (with_wavelength && g == 0 &&
-          !(std::abs(number_within(row.at(std::size_t{0}), 1, 1e6, "a wavelength") - nm) < 1e-3))
-        row.at(std::size_t{0}).fail(fmt::format("the wavelength {:g}", nm));
-      all.add(deg, fmt::format("{}", g), nm,
-              value_in(row.at(by_wavelength ? g + (with_wavelength ? 1 : 0) : w)));
-    }
-    expect_room(data, all, bands);
+    all.add_place(deg);
+    all.expect_room(data, bands);
   }
-  Table t = all.table("brdf_json");
+  all.reserve(geometries * bands);
+  for (std::size_t r = 0; r < rows.size(); ++r) {
+    const JsonReader row = rows[r];
+    if (row.size() != length)
+      row.fail(fmt::format("{} entries", row.size()), fmt::format("{}", length));
+    const std::size_t first = with_wavelength ? 1 : 0;
+    if (with_wavelength &&
+        !(std::abs(number_within(row.at(std::size_t{0}), 1, 1e6, "a wavelength") - nm[r]) < 1e-3))
+      row.at(std::size_t{0}).fail(fmt::format("the wavelength {:g}", nm[r]));
+    for (std::size_t k = 0; k + first < length; ++k)
+      all.add(static_cast<std::uint32_t>(by_wavelength ? k : r), nm[by_wavelength ? r : k],
+              value_in(row.at(k + first)));
+  }
+  Table t = all.table(data, "brdf_json");
   tell_polarisation(polarised, t);
   return t;
 }
@@ -347,11 +427,11 @@ Table read_xompt(InputFile& in) {
         std::round(number_within(row.at(std::size_t{0}), 1e-9, 1e-3, "a wavelength in metres") *
                    1e15) /
         1e6;
-    all.add({angle(1, right), 0, angle(2, right), angle(3, round)}, "", nm, value_in(row.at(4)));
-    expect_room(row, all, 0);
+    all.add(all.place_of({angle(1, right), 0, angle(2, right), angle(3, round)}, ""), nm,
+            value_in(row.at(4)));
+    all.expect_room(row, 0);
   }
-  expect_filled(rows, all);
-  Table t = all.table("xompt");
+  Table t = all.table(rows, "xompt");
   if (t.size() == 0) rows.fail("no samples", "one at least");
   double largest = 0;
   for (const auto& plane : t.values)

@@ -242,6 +242,14 @@ class Chooser {
   /// The map's words, with a column for each that a pattern such as f_*=*nm matches, and none matches that fixes more of
   /// its name.
   std::vector<std::pair<std::string, std::string>> expanded() const {
+    constexpr std::ptrdiff_t most_patterns = 64;
+    if (const auto n = std::ranges::count_if(
+            map_.columns, [](const auto& said) { return pattern(said).has_value(); });
+        n > most_patterns)
+      throw bad_input(path_, "columns", fmt::format("{} patterns", n),
+                      fmt::format("at most {}", most_patterns));
+    // Values and their uncertainties, whatever the patterns.
+    const std::size_t most = map_.columns.size() + 2 * most_channels;
     std::map<std::string_view, std::size_t> most_fixed;  // of a name
     for (const auto& said : map_.columns)
       if (const auto p = pattern(said))
@@ -271,6 +279,9 @@ class Chooser {
       if (all.size() - size > most_channels)
         lines_.fail("", fmt::format("{} channels", all.size() - size),
                     fmt::format("at most {}", most_channels));
+      if (all.size() > most)
+        lines_.fail("", fmt::format("{} columns by patterns", all.size()),
+                    fmt::format("at most {}", most));
     }
     return all;
   }

@@ -3,7 +3,10 @@
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <set>
+#include <string_view>
 
+#include "base/earlier_file.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json/reader.h"
@@ -181,6 +184,11 @@ Table read_open(InputFile& in, const std::string& side) {
   const auto map = side.empty() ? std::nullopt : column_map(side_path(in.path()), side);
   Table t = read_by_format(in, map ? &*map : nullptr);
   in.expect_unchanged();
+  std::set<std::string_view> names;
+  for (const auto& name : t.channels)
+    if (!names.insert(name).second)
+      throw bad_input(in.path(), "channels", fmt::format("two named '{}'", name),
+                      "one of each name");
   t.path = in.path();
   return t;
 }
@@ -195,6 +203,7 @@ void expect_own_side(const std::string& path) {
   const std::string side = side_path(path);
   std::error_code why;
   if (!std::filesystem::exists(std::filesystem::symlink_status(side, why))) return;
+  expect_no_input(side);
   may_replace(side);
   try {
     if (JsonDocument(side, side_text(path)).root().has("sha256"))
@@ -216,9 +225,12 @@ double memory_needed(const std::string& path) {
   try {
     InputFile in(path);
     constexpr double times_the_file = 8, of_json = 40,
-                     of_image = 3e8;  // an image may be packed to nothing
+                     of_zemax = 64,  // a value has two bytes, and its direction none
+        of_image = 3e8;              // an image may be packed to nothing
     const std::string head = in.peek(1 << 16);
-    return (is_brdf_json(head) || is_xompt(head) ? of_json : times_the_file) *
+    return (is_brdf_json(head) || is_xompt(head) ? of_json
+            : is_zemax(head)                     ? of_zemax
+                                                 : times_the_file) *
                static_cast<double>(in.size()) +
            (is_exr(head) ? of_image : 0);
   } catch (const Error&) {
@@ -269,11 +281,11 @@ void write_table(const Table& t, const std::string& path) {
   if (needs_metadata(t))
     write_file(side, metadata_text(t, sha256_of_file(out.temporary_path())));
   else
-    std::remove(side.c_str());
+    remove_unless_input(side);
   try {
     out.commit();
   } catch (...) {
-    std::remove(side.c_str());
+    remove_unless_input(side);
     throw;
   }
 }

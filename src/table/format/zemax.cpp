@@ -320,6 +320,11 @@ class ZemaxReader {
     if (numbers * (xyz_ ? 7 : 5) > static_cast<double>(most_values))
       fail(fmt::format("{:g} values", numbers),
            fmt::format("at most {} numbers, directions included", most_values));
+    // A digit and a blank each: counts that lie would take memory for directions before a value is
+    // missed.
+    if (numbers * (xyz_ ? 3 : 1) > static_cast<double>(rest_.size() / 2 + 1))
+      fail(fmt::format("{:g} values", numbers * (xyz_ ? 3 : 1)),
+           fmt::format("as many as {} bytes can hold", rest_.size()));
     if (f_.mirrored && (x.azimuth.front() < 0 || x.azimuth.back() > 180))
       fail(fmt::format("ScatterAzimuth to {:g}", x.azimuth.back()),
            "0 to 180, as it is PlaneSymmetrical");

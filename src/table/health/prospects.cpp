@@ -162,12 +162,14 @@ Prospect kd(const Health& h, const Survey& s) {
     return say(weakly, fmt::format("the base, {:.3g} 1/sr, is below the noise floor of {:.3g} 1/sr",
                                    base, h.noise_floor));
   const double tail = std::min(1.0, (h.peak->height - base) * s.tail / base);
-  return say(tail <= 0.2      ? yes
-             : tail < 2.0 / 3 ? weakly
-                              : no,
-             fmt::format("far from the highlight, at theta_h = {2:.0f}°, values are {0:.3g} 1/sr; a GGX tail of "
-                         "the highlight would make {1:.3g} % of that",
-                         base, 100 * tail, h.peak->base_deg));
+  return say(
+      tail <= 0.2      ? yes
+      : tail < 2.0 / 3 ? weakly
+                       : no,
+      fmt::format(
+          "far from the highlight, at theta_h = {2:.0f}°, values are {0:.3g} 1/sr; a GGX tail of "
+          "the highlight would make {1:.3g} % of that",
+          base, 100 * tail, h.peak->base_deg));
 }
 
 Prospect precision(const Health& h, const Survey& s) {

@@ -9,6 +9,7 @@
 #include <span>
 #include <utility>
 
+#include "base/few.h"
 #include "base/quantile.h"
 #include "base/text.h"
 #include "table/format/columns_command.h"
@@ -88,6 +89,7 @@ std::optional<std::pair<double, double>> bright_everywhere(const Table& t) {
 
 /// Command that leaves a channel out.
 std::string without_channel(const Table& t, std::size_t channel) {
+  if (t.channels.size() > 2 * most_listed) return "";
   std::string others;
   for (std::size_t c = 0; c < t.channels.size(); ++c)
     if (c != channel) others += " " + shell_word(t.channels[c]);
@@ -405,12 +407,13 @@ bool warn_of_elevation(TableFacts& facts, std::vector<std::string>& all) {
 }
 
 void warn_of_dark_channels(const Table& t, std::vector<std::string>& all) {
-  std::string dark;
+  std::vector<std::string> dark;
   for (std::size_t c = 0; c < t.values.size(); ++c)
     if (std::ranges::none_of(t.values[c], [](double v) { return v > 0; }))
-      dark += (dark.empty() ? "" : ", ") + t.channels[c];
+      dark.push_back(t.channels[c]);
   if (!dark.empty())
-    all.push_back(fmt::format("no value of channel {} is above 0: nothing is known of it", dark));
+    all.push_back(
+        fmt::format("no value of channel {} is above 0: nothing is known of it", few_of(dark)));
 }
 
 void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
@@ -521,7 +524,7 @@ std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
 void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
   const auto found = [](const SharedEnd& e) {
     return fmt::format("{} of {} values of channel {} are {}", e.sharers, e.values,
-                       fmt::join(e.channels, ", "), e.value);
+                       few_of(e.channels), e.value);
   };
   const Table& t = facts.table();
   if (const auto full = shared_ends(t, true); !full.empty()) {
@@ -530,9 +533,11 @@ void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
       for (const auto& channel : e.channels)
         conditions.push_back(
             fmt::format("{} >= {}", channel == "f" ? channel : "f_" + channel, e.value));
-    all.push_back(
-        fmt::format("{}, and none is more: a full detector? (--mask '{}' leaves them out)",
-                    found(full[0]), fmt::join(conditions, " or ")));
+    const bool few = conditions.size() <= most_listed;
+    all.push_back(fmt::format(
+        "{}, and none is more: a full detector? (--mask {} {})", found(full[0]),
+        few ? fmt::format("'{}'", fmt::join(conditions, " or ")) : few_of(conditions, " or "),
+        few ? "leaves them out" : "leave them out"));
   }
   for (const auto& e : shared_ends(t, false)) {
     // A computed base is shared, too; clipped noise goes on above.

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <set>
 
+#include "base/file.h"
+#include "fitting/batch/gather.h"
 #include "refusal.h"
 #include "support.h"
 
@@ -131,6 +133,25 @@ TEST(Batch, NamesNoTwoDocumentsAlike) {
 }
 
 /// In time quadratic in the tables this takes an hour, in linear time a second.
+TEST(Batch, HasTablesWhoseNamesAreHiddenOrNoText) {
+  const test::Folder f;
+  fs::create_directories(f / "in");
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int i = 0; i < 80; i += 10) csv += std::to_string(i) + ",0,30,180,0.1\n";
+  std::vector<std::string> tables;
+  for (const char* name : {"in/.h.csv", "in/\xff.csv", "in/\xfe.csv"})
+    tables.push_back(f.write(name, csv));
+  Batch b{tables, f / "out", {}};
+  b.how.options.model = "lambert";
+  EXPECT_EQ(fit_batch(b, {}).rows.size(), 3U);
+  const auto list = read_list(f / "out");
+  const BatchSummary s = gather(f / "out", list, {}, {});
+  EXPECT_EQ(s.missing, std::vector<std::string>{});
+  EXPECT_EQ(s.left_out.size(), 0U);
+  ASSERT_EQ(s.rows.size(), 3U);
+  for (const auto& row : s.rows) EXPECT_TRUE(row.fit) << row.document;
+}
+
 TEST(Batch, NamesManyDocumentsOfOneName) {
   constexpr std::size_t many = 300'000;
   std::vector<std::string> tables;
@@ -203,13 +224,14 @@ TEST(Batch, MakesAPageOfEachTableWhereAskedAndKeepsItWithItsDocument) {
   BatchHooks hooks;
   EXPECT_EQ(fit_batch(b, hooks).rows[0].page, "") << "none was asked for";
   hooks.page = [](const BatchSummary& s, const std::string&) { return s.rows[0].page; };
-  hooks.table_page = [](const FittedFile& file) { return file.table.path; };
+  const std::string head = R"(<meta name="generator" content="gonio">)";
+  hooks.table_page = [&](const FittedFile& file) { return head + file.table.path; };
   const auto first = fit_batch(b, hooks);
   EXPECT_EQ(first.count.kept, 0U) << "their pages are missing";
   EXPECT_EQ(first.rows[0].page, "a.fit.html");
   EXPECT_EQ(first.rows[2].page, "") << "it could not be read";
-  EXPECT_EQ(test::read_bytes(f / "out/a.fit.html"), f / "a.csv");
-  EXPECT_EQ(test::read_bytes(f / "out/summary.fit.html"), f / "summary.csv");
+  EXPECT_EQ(test::read_bytes(f / "out/a.fit.html"), head + (f / "a.csv"));
+  EXPECT_EQ(test::read_bytes(f / "out/summary.fit.html"), head + (f / "summary.csv"));
   EXPECT_EQ(test::read_bytes(f / "out/summary.html"), "a.fit.html");
   const auto second = fit_batch(b, hooks);
   EXPECT_EQ(second.count.kept, 2U);
@@ -220,6 +242,45 @@ TEST(Batch, MakesAPageOfEachTableWhereAskedAndKeepsItWithItsDocument) {
   f.write("a.csv", "theta_i");
   fit_batch(b, hooks);
   EXPECT_FALSE(fs::exists(f / "out/a.fit.html")) << "no page of what is no table any more";
+}
+
+TEST(Batch, TakesNoPageAwayThatIsAnInputOrSomebodyElses) {
+  const test::Folder f;
+  fs::create_directories(f / "out");
+  std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";
+  for (int i = 0; i < 80; i += 10) csv += std::to_string(i) + ",0,30,180,0.1\n";
+  f.write("broken.csv", "theta_i");
+  for (const std::string& page : {csv, std::string("mine")}) {
+    f.write("out/broken.fit.html", page);
+    Batch b{{f / "broken.csv"}, f / "out", {}};
+    b.how.options.model = "lambert";
+    for (int round = 0; round < 2; ++round) {  // the second finds the document of a failure
+      fit_batch(b, {});
+      EXPECT_EQ(test::read_bytes(f / "out/broken.fit.html"), page) << round;
+    }
+  }
+  f.write("out/broken.fit.html", csv + R"(# <meta name="generator" content="gonio">)");
+  const FileGuard guard;
+  Batch b{{f / "broken.csv", f / "out/broken.fit.html"}, f / "out", {}};
+  b.how.options.model = "lambert";
+  fit_batch(b, {});
+  EXPECT_TRUE(fs::exists(f / "out/broken.fit.html")) << "an input";
+}
+
+TEST(Batch, WritesThroughNoLink) {
+  const test::Folder f;
+  f.write("a.csv", "theta_i");
+  f.write("victim", "mine");
+  for (const char* name : {"summary.csv", "summary.html", "summary.list.json", "a.json"}) {
+    fs::remove_all(f / "out");
+    fs::create_directories(f / "out");
+    fs::create_symlink("../victim", f / (std::string("out/") + name));
+    EXPECT_HAS(test::refusal([&] {
+                 fit_batch({{f / "a.csv"}, f / "out", {}}, {});
+               }),
+               "writing: found a link");
+    EXPECT_EQ(test::read_bytes(f / "victim"), "mine") << name;
+  }
 }
 
 TEST(Batch, WithoutAPageItStillHasItsSummary) {

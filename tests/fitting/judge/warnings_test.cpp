@@ -69,11 +69,12 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   m.follows = {"theta_h", "theta_d", "grazing angles"};
   m.worst_cell = {10, 22.5, 60, 75, 40, -0.3};
   EXPECT_EQ(misfit_in_words(m),
-            (std::vector<std::string>{"the model misses the table by a factor of 1.088, "
-                                      "along theta_h, theta_d and grazing angles; "
-                                      "intervals include this",
-                                      "the largest deviation that is no noise is near theta_h 16°, theta_d 68°: "
-                                      "30 % too dark"}));
+            (std::vector<std::string>{
+                "the model misses the table by a factor of 1.088, "
+                "along theta_h, theta_d and grazing angles; "
+                "intervals include this",
+                "the largest deviation that is no noise is near theta_h 16°, theta_d 68°: "
+                "30 % too dark"}));
   m.worst_cell->difference = 2.4;
   EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": 3.4 times as bright"));
   m.worst_cell->difference = 1.0 / 150 - 1;

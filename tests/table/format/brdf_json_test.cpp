@@ -44,6 +44,20 @@ TEST(BrdfJson, OfTheNewFormHasAChannelForEachWavelength) {
   EXPECT_EQ(t.notes.at(2).first, "sample.name");
 }
 
+TEST(BrdfJson, ListsAFewOfManyPolarisations) {
+  std::string rows;
+  for (int k = 0; k < 1000; ++k)
+    rows += fmt::format("{}[0.5, 0, 20, 180, 650, \"{}{}\", 0.3, 0.003]", k ? "," : "",
+                        std::string(200, 'p'), k);
+  const auto from = new_form.find("\"values\": [") + 11;
+  std::string text = new_form;
+  text.replace(from, text.rfind(']') + 1 - from, rows + "]");
+  const Table t = table_of_json(text);
+  ASSERT_EQ(t.warnings.size(), 1U);
+  EXPECT_HAS(t.warnings[0], "… and 994 more");
+  EXPECT_LT(t.warnings[0].size(), 600U);
+}
+
 std::string old_form(const std::string& rows) {
   return R"({"head": {"date": "1.2.2020"}, "data": {"wavelengths": [700, 500], "theta_i": [0, 0, 45],
 "phi_i": [0, 0, 0], "theta_v": [-10, 20, 45], "phi_v": [0, 0, 180], "pol": "uuu", "data": )" +
@@ -110,6 +124,25 @@ TEST(OpenMaterial, HasAnglesInRadiansAndWavelengthsInMetres) {
              "a wavelength in metres");
   EXPECT_HAS(complaint_about(R"({"brdf": {"lookupTable": [[5.5e-07, 45, 0.25, 3.1, 1]]}})"),
              "an angle in radians");
+}
+
+TEST(OpenMaterial, OfWavelengthsThatRoundToOneHasAChannelForEach) {
+  const Table t = table_of_json(
+      R"({"brdf": {"lookupTable": [[5e-7, 0.1, 0.2, 3, 0.04], [5.0000001e-7, 0.1, 0.2, 3, 0.05]]}})");
+  EXPECT_EQ(t.channels, (std::vector<std::string>{"500", "500.00001"}));
+  EXPECT_EQ(t.values[1][0], 0.05);
+}
+
+TEST(BrdfJson, OfTheOldFormTellsDirectionsApartThatItHasTwice) {
+  const Table t = table_of_json(
+      R"({"head": {}, "data": {"wavelengths": [500, 500], "theta_i": [0, 0], "phi_i": [0, 0],
+"theta_v": [10, 10], "phi_v": [0, 0], "data": [[1, 2], [3, 4]]}})");
+  ASSERT_EQ(t.size(), 4U) << "a wavelength twice is measured once more";
+  EXPECT_EQ(t.values[0], (Values{1, 2, 3, 4}));
+  EXPECT_HAS(complaint_about(
+                 R"({"head": {}, "data": {"wavelengths": [500], "theta_i": [], "phi_i": [],
+"theta_v": [], "phi_v": [], "data": [[]]}})"),
+             "no samples");
 }
 
 /// Each direction has room for each wavelength: 9,000 rows asked for half a gigabyte.

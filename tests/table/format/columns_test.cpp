@@ -523,6 +523,19 @@ TEST(ColumnMap, TakesAColumnForThePatternThatFixesMoreOfItsName) {
   expect_complaint(text, R"("f_*":"*50nm","U_f_*":"U*0nm")", "a column that is two things");
 }
 
+TEST(ColumnMap, OfManyPatternsMayNotMakeColumnsWithoutEnd) {
+  std::string names = "theta_i,theta_o", row = "30,20";
+  for (int k = 0; k < 4000; ++k) names += fmt::format(",{}nm", k), row += ",1";
+  const auto patterns = [](int n) {
+    std::string all = R"("f_*":"*nm")";
+    for (int k = 1; k < n; ++k) all += fmt::format(R"(,"u_f_{}_*":"*nm")", k);
+    return all;
+  };
+  const std::string text = names + "\n" + row + "\n";
+  expect_complaint(text, patterns(65), "columns: found 65 patterns, expected at most 64");
+  expect_complaint(text, patterns(64), "12000 columns by patterns, expected at most 8256");
+}
+
 TEST(ColumnMap, TakesUncertaintiesInPartsOfTheValue) {
   const std::string text = "in,out,a,b,s,t\n30,20,2,4,10,5\n30,40,1,0,10,5\n30,50,1,4,10,5\n",
                     angles = R"("theta_i":"in","theta_o":"out",)";

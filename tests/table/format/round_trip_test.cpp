@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "base/error.h"
+#include "base/file.h"
 #include "base/sha256.h"
 #include "refusal.h"
 #include "support.h"
@@ -27,6 +28,16 @@ void expect_same(const Table& a, const Table& b) {
   EXPECT_EQ(a.notes, b.notes);
   ASSERT_EQ(a.grid() != nullptr, b.grid() != nullptr);
   EXPECT_TRUE(!a.grid() || *a.grid() == *b.grid());
+}
+
+TEST(WriteTable, TakesNoSideFileAwayThatIsAnInput) {
+  const Folder folder;
+  Table t = merl_example(0.2);
+  const std::string side = folder.write("table.gonio.json", R"({"sha256": "that of another"})");
+  const FileGuard guard;
+  will_read(side);
+  EXPECT_HAS(refusal([&] { write_table(t, folder / "table"); }, Exit::usage), "is an input");
+  EXPECT_TRUE(std::filesystem::exists(side));
 }
 
 TEST(MerlFile, ReadsBackWhatItWrote) {

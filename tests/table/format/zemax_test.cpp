@@ -3,6 +3,7 @@
 #include "table/format/zemax.h"
 
 #include <cmath>
+#include <ranges>
 
 #include "integrate/rule/quadrature.h"
 #include "table/complaint.h"
@@ -10,6 +11,8 @@
 #include "table/example.h"
 #include "table/foreign.h"
 #include "table/health/directional_albedo.h"
+
+#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -132,6 +135,14 @@ TEST(ZemaxFile, ThatLiesIsRefusedByItsLine) {
   EXPECT_HAS(zemax_complaint("60\t120\t180", "60\t120\t190"), "0 to 180");
   EXPECT_HAS(zemax_complaint("AngleOfIncidence 3", "AngleOfIncidence 99999999999999"),
              "a number of angles");
+  const std::string many = fmt::format("ScatterAzimuth 100\n{}\nScatterRadial 100\n{}\n",
+                                       fmt::join(std::views::iota(0, 100), " "),
+                                       fmt::join(std::views::iota(0, 100), " "));
+  EXPECT_HAS(
+      complaint_about("Source Measured\nSymmetry PlaneSymmetrical\nSpectralContent Monochrome\n"
+                      "ScatterType BRDF\nSampleRotation 1\n0\nAngleOfIncidence 1\n0\n" +
+                      many + "Monochrome\nDataBegin\nTIS 0.5\n0.1 0.1\nDataEnd\n"),
+      "found '10000 values', expected as many as 34 bytes can hold");
 }
 
 TEST(ZemaxFile, IsWrittenFromAGridAndReadBack) {

@@ -195,6 +195,15 @@ TEST(ValueWarnings, SayThatADetectorWasFull) {
   });
   EXPECT_TRUE(says(three, "values of channel r, g, b are 0.33, and none is more"));
   EXPECT_TRUE(says(three, "(--mask 'f_r >= 0.33 or f_g >= 0.33 or f_b >= 0.33' leaves them out)"));
+  // A spectrum has thousands of channels: a sentence lists a few.
+  Table many = painted(180);
+  many.channels.clear();
+  for (int c = 0; c < 1000; ++c)
+    many.channels.push_back("a channel of a long name " + std::to_string(c));
+  many.values.resize(1000, many.values[0]);
+  for (const auto& sentence :
+       said_of(many, [](const auto&, double f) { return std::min(f, 0.12); }))
+    EXPECT_LT(sentence.size(), 1500U) << sentence;
   // Short numbers are shared by many samples, the greatest by no more than others.
   EXPECT_FALSE(
       says(said_of(painted(180), [](const auto&, double f) { return std::round(f * 100) / 100; }),
