@@ -186,11 +186,6 @@ void resolve(std::vector<Light>& lights, const JsonReader& at, Files& files) {
 
 }  // namespace
 
-Direction direction_of(double elevation_deg, double azimuth_deg) {
-  const double e = elevation_deg * degree, a = azimuth_deg * degree;
-  return {std::cos(e) * std::sin(a), std::sin(e), std::cos(e) * std::cos(a)};
-}
-
 Rgb EnvironmentLight::radiance(const Direction& d) const {
   Rgb c = map(into_map(d));
   for (double& v : c) v *= scale;

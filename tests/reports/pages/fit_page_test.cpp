@@ -77,7 +77,7 @@ TEST(FitPage, NamesItsOwnDocumentAndTheCommandThatOpensBothWithSliders) {
   const auto page = make_fit_page(t, test::glossy());
   EXPECT_EQ(html_of(d).find("gonio explore"), std::string::npos) << "of a fit without a document";
   const auto html = fit_page_html(d, t, inspect(t), page, "out/paint.json");
-  EXPECT_NE(html.find("gonio explore &#39;a b.csv&#39; paint.json"), html.npos);
+  EXPECT_NE(html.find("gonio explore 'a b.csv' paint.json"), html.npos);
   EXPECT_EQ(html.find("fit.json"), html.npos);
 }
 

@@ -175,7 +175,7 @@ TEST(ModelsPage, ItsCommandsLeaveOutWhatTheComparisonLeftOut) {
   const ModelChoice c = test::compared_models();
   const ComparedTable table{"t.csv", "0ab1", "csv", "log", "theta_o > 80"};
   const std::string html = models_page_html(c, advise(c), table, page_of(c));
-  EXPECT_NE(html.find(" --mask &#39;theta_o &gt; 80&#39;"), html.npos);
+  EXPECT_NE(html.find(" --mask 'theta_o &gt; 80'"), html.npos);
   EXPECT_EQ(json::parse(to_json(c, advise(c), table))["input"]["mask"], "theta_o > 80");
 }
 
