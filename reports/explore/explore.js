@@ -505,11 +505,13 @@ function draw_spheres() {
   gather();
 }
 let gathering = 0;
-/// Light that extends is gathered, a pass more with each frame.
+/// Light that extends is gathered, with each frame a pass more of the sphere that has fewest.
 function gather() {
-  cancelAnimationFrame(gathering);
-  for (const [item, i] of drawn()) if (item.passes < catalogue.passes) item.passes = checked(g.gather(item.handle, exposure(), room.rgba)), put(`sphere-${i}`, sphereSize);
-  gathering = drawn().some(([item]) => item.passes < catalogue.passes) ? requestAnimationFrame(safely(gather)) : 0;
+  cancelAnimationFrame(gathering), gathering = 0;
+  const [item, i] = drawn().reduce((least, one) => (one[0].passes < least[0].passes ? one : least), [{ passes: catalogue.passes }, 0]);
+  if (item.passes >= catalogue.passes) return;
+  item.passes = checked(g.gather(item.handle, exposure(), room.rgba)), put(`sphere-${i}`, sphereSize);
+  gathering = requestAnimationFrame(safely(gather));
 }
 function draw_slices() {
   for (const [item, i] of drawn()) {

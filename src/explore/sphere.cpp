@@ -168,7 +168,7 @@ WideSphere::WideSphere(std::size_t pixels, std::size_t light)
 std::size_t WideSphere::gather(const Surface& s) {
   // A pass takes, of each pixel's points, one far from that of the pass before; all passes take
   // them all.
-  const scene::Part part{done_ * 97 % passes, passes};
+  const scene::Part part{done_ * 25 % passes, passes};
   const auto widths = widths_of(s);
   std::vector<LitPoint> points;
   std::vector<double> weights;

@@ -50,7 +50,7 @@ const std::vector<WideLight>& wide_lights();
 /// The sphere casts no shadow but on its far side.
 class WideSphere {
  public:
-  static constexpr std::size_t passes = 256;  ///< all that there are
+  static constexpr std::size_t passes = 64;  ///< all that there are
 
   WideSphere(std::size_t pixels, std::size_t light);
   /// One more direction for each pixel, drawn as `gonio render` draws it; answers how many passes were gathered.

@@ -189,7 +189,7 @@ def drags(page):
         early = page.ask("[items[1].passes, look('sphere-1')]")
         page.wait("drawn().every(([item]) => item.passes === catalogue.passes)")
         seen.append(page.ask("look('sphere-1')"))
-        expect(early[0] < 256 and early[1] != seen[-1], f"a picture under {lamp} converges while it is watched, from {early[0]} passes on")
+        expect(early[0] < 64 and early[1] != seen[-1], f"a picture under {lamp} converges while it is watched, from {early[0]} passes on")
         expect(seen[-1]["colours"] > 100, f"and is drawn: {seen[-1]}")
         page.wait("document.getElementById('facts').innerText.includes('under front light')")
     expect(len({one["sum"] for one in seen}) == len(seen), "each light makes another picture")

@@ -128,8 +128,8 @@ TEST(WideSphere, ConvergesToTheSumOverItsLight) {
           off += found[c][i] - expected[c][i], all += expected[c][i];
           worst = std::max(worst, std::abs(found[c][i] / expected[c][i] - 1));
         }
-      EXPECT_NEAR(off / all, 0, 0.01) << wide_lights()[light].name << " " << !s;
-      EXPECT_LT(worst, 0.15) << wide_lights()[light].name << " " << !s;
+      EXPECT_NEAR(off / all, 0, 0.015) << wide_lights()[light].name << " " << !s;
+      EXPECT_LT(worst, 0.3) << wide_lights()[light].name << " " << !s;
     }
 }
 
@@ -145,7 +145,8 @@ TEST(WideSphere, IsRightInTheMeanFromTheFirstPassOn) {
     };
     sphere.gather(s);
     const double first = sum();
-    for (int pass = 1; pass < 64; ++pass) sphere.gather(s);
+    while (sphere.gather(s) < WideSphere::passes) {
+    }
     EXPECT_NEAR(first / sum(), 1, 0.1) << wide_lights()[light].name;
   }
 }
