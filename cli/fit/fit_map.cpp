@@ -6,7 +6,6 @@
 #include <optional>
 #include <system_error>
 
-#include "base/earlier_file.h"
 #include "base/file.h"
 #include "cli/fit/map_result.h"
 #include "cli/line/command.h"
@@ -154,7 +153,9 @@ Exit run(const FitMapCall& o) {
   }
   line.line().clear();
   print_map(d, o, n.kept ? fmt::format("{} of {} tiles kept from before", n.kept, n.tiles) : "");
-  for (const Tile& tile : tiles) remove_unless_input((fs::path(folder) / file_name(tile)).string());
+  std::error_code kept;
+  for (const Tile& tile : tiles)  // this run wrote and read them; what the stack names was refused
+    fs::remove(fs::path(folder) / file_name(tile), kept);
   return outcome_of(d);
 }
 
