@@ -51,7 +51,7 @@ class Package(InAFolder):
 
     def test_no_help_of_the_program_speaks_of_an_argument_that_the_module_lacks(self):
         """Options of `gonio fit`, `albedo` and `synth`, apart from those of files, of terminals and of maps."""
-        of_files = {"help", "html", "output", "json", "quiet", "pages", "set", "part", "model", "models", "as"}
+        of_files = {"help", "html", "output", "json", "quiet", "pages", "set", "part", "model", "models", "as", "follow"}
         of_files |= {"argument", "includes", "bounds"}  # a spec says them in braces behind a shader's function
         for function in (gonio.fit, gonio.albedo, gonio.synth):
             text = subprocess.run([PROGRAM, function.__name__, "--help"], capture_output=True, text=True).stdout
