@@ -132,7 +132,7 @@ struct Description<scene::MaterialPlan> {
               "least error_upper of a compensation that shaders have, all else exact", amounts,
               or_default),
         field("shipped_error_quantile", &M::shipped_quantile,
-              "least error_if_dropped of such a compensation: without the reference's own error",
+              "least error_if_dropped among those compensations: without the reference's own error",
               amounts, or_default),
         field("reference_error", &M::reference_error,
               "quantile of what the reference itself may be off by: in the differences", amounts,
