@@ -259,7 +259,7 @@ TEST(Exr, RefusesTilesWhoseChannelsFillTheMemory) {
   std::string channels;
   for (int c = 0; c < 100; ++c)
     channels += std::to_string(c) + '\0' + ExrHeader::words({2, 0, 1, 1});
-  const auto refused = [&](std::uint32_t tile_width, std::uint32_t tile_height) {
+  const auto refused = [&](int tile_width, int tile_height) {
     std::string text =
         ExrHeader()
             .add("channels", "chlist", channels + '\0')
