@@ -14,7 +14,7 @@ Facts facts(const CostRows& r) {
     if (row.memory == "cache" && row.way == "fused" && row.id == "ggx/smith_ggx.correlated/schlick")
       f.setting->model_ns = row.time.ns;
     if (row.memory == "cache" && row.way == "fused") f.whole.push_back(time);
-    // Of most models nothing is fused.
+    // Few models have a fused loop.
     if (row.memory == "streaming" && row.way == "composed") f.streaming.push_back(time);
   }
   return f;

@@ -419,8 +419,8 @@ Section input(const FitDocument& d, const std::string& document) {
            {"mask", d.mask ? "`" + *d.mask + "`" : ""},
            {"with sliders", document.empty() ? ""
                                              : fmt::format("`gonio explore {} {} -o explore.html`",
-                                                           shell_word(file_name(d.input_path)),
-                                                           shell_word(file_name(document)))}}}}};
+                                                           path_word(file_name(d.input_path)),
+                                                           path_word(file_name(document)))}}}}};
 }
 
 }  // namespace gonio::fit_sections

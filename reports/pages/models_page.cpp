@@ -484,12 +484,12 @@ std::string ModelsSections::html() {
                compared_.empty()
                    ? ""
                    : fmt::format("`gonio fit {} --model {}{} -o fit.json --html fit.html`",
-                                 shell_word(file), taken().row.model,
+                                 path_word(file), taken().row.model,
                                  table_.mask.empty() ? "" : " --mask " + shell_word(table_.mask))},
               {"with sliders",
                compared_.empty() ? ""
                                  : fmt::format("`gonio explore {} {} -o explore.html`",
-                                               shell_word(file), taken().row.model)}}}}};
+                                               path_word(file), taken().row.model)}}}}};
   Section meanings{
       "What the words mean",
       "",

@@ -104,7 +104,7 @@ bool needs_all(const scene::MaterialPlan& m) {
   return std::abs(m.ops_saved) < 1e-12;
 }
 
-/// What the plan does to the times of materials whose plans shaders can run.
+/// How much faster or slower the plan makes the materials that shaders can run as planned.
 void say_speeds(std::vector<std::string>& out, const scene::Plan& p) {
   std::vector<const scene::MaterialPlan*> faster;
   std::vector<std::string> whole;

@@ -79,6 +79,9 @@ TEST(FitPage, NamesItsOwnDocumentAndTheCommandThatOpensBothWithSliders) {
   const auto html = fit_page_html(d, t, inspect(t), page, "out/paint.json");
   EXPECT_NE(html.find("gonio explore 'a b.csv' paint.json"), html.npos);
   EXPECT_EQ(html.find("fit.json"), html.npos);
+  d.input_path = "out/--help";
+  const auto dashed = fit_page_html(d, t, inspect(t), page, "-x.json");
+  EXPECT_NE(dashed.find("gonio explore ./--help ./-x.json"), dashed.npos) << "names, no options";
 }
 
 TEST(FitPage, ShowsRatiosUncertaintiesAndWhatIsLeftOut) {
