@@ -114,7 +114,7 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
   if (asked == Intervals::independent || (asked == Intervals::automatic && s.table().truth)) {
     auto a = by_value();
     const auto u = errors(a, stated);
-    return {std::move(a), u, u.std_error, 0, 0, independent};
+    return {std::move(a), u, u.std_errors(), 0, 0, independent};
   }
   auto a = assess(s, f.model, p.free, f.huber, true, nullptr, f.in_float);
   const std::size_t angles = a.incident_angles;
@@ -122,12 +122,12 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
     throw wrong_usage("intervals by_angle: the table has one incident angle");
   auto u = errors(a, false);
   if (asked == Intervals::by_angle || enough_angles(angles))
-    return {std::move(a), u, u.std_error, angles, angles, clustered};
+    return {std::move(a), u, u.std_errors(), angles, angles, clustered};
   const auto values = errors(by_value(), stated);
-  if (angles < 2) return {std::move(a), values, values.std_error, angles, 0, independent};
+  if (angles < 2) return {std::move(a), values, values.std_errors(), angles, 0, independent};
   return {std::move(a),
           wider(std::move(u), values),
-          values.std_error,
+          values.std_errors(),
           angles,
           angles,
           stated ? "the wider of two: clustered by incident angle, stated uncertainties"
@@ -221,7 +221,7 @@ FitResult fit_and_judge(const Table& t,
   keep_to_what_is_seen(table, p, f.model.values, !lack.misfit.reproduces(), u);
   watch.lap("limits_ms");
   for (std::size_t i = 0; i < in_order.size(); ++i)
-    if (u.reason[i].empty()) u.reason[i] = in_order[i];
+    if (u[i].reason.empty()) u[i].reason = in_order[i];
   const char* in_words = judged.in_words;
   if (o.intervals == Intervals::bootstrap) {
     announce("fits of tables drawn from this one");

@@ -75,7 +75,7 @@ bool bootstrap(const Sampling& unfolded,
   if (!by_angle && unfolded.groups().size() > scan_samples)
     part *= std::sqrt(count / static_cast<double>(unfolded.groups().size()));
   for (std::size_t i = 0; i < n; ++i) {
-    if (u.status[i] != ParameterStatus::free || std::isnan(u.std_error[i])) continue;
+    if (u[i].status != ParameterStatus::free || std::isnan(u[i].std_error)) continue;
     const double value = f.model.values[p.free.slots()[i]];
     std::vector<double> moves;
     double sum = 0, squares = 0;
@@ -86,11 +86,11 @@ bool bootstrap(const Sampling& unfolded,
     }
     constexpr double tables = bootstrap_tables;
     const double error = std::sqrt(std::max(0.0, squares - sum * sum / tables) / (tables - 1));
-    u.std_error[i] =
-        with_gains(lack, i, widened(error, lack.widening, seen_against[i]), u.freedom[i]);
-    const double wider = error > 0 ? u.std_error[i] / error : 1;
-    u.low[i] = value + wider * quantile(moves, 0.025);
-    u.high[i] = value + wider * quantile(moves, 0.975);
+    u[i].std_error =
+        with_gains(lack, i, widened(error, lack.widening, seen_against[i]), u[i].freedom);
+    const double wider = error > 0 ? u[i].std_error / error : 1;
+    u[i].low = value + wider * quantile(moves, 0.025);
+    u[i].high = value + wider * quantile(moves, 0.975);
   }
   return true;
 }

@@ -28,17 +28,13 @@ void describe(FitDocument& d,
       std::string reason;
       auto status = ParameterStatus::fixed;
       if (p.free.mask()[s]) {
-        const std::size_t i = p.free.index(s);
-        status = u.status[i];
-        error = u.std_error[i];
-        low = std::isnan(u.low[i]) ? value - u.t[i] * error : u.low[i];
-        high = std::isnan(u.high[i]) ? value + u.t[i] * error : u.high[i];
-        limit = u.limit[i];
-        reason = u.reason[i];
-        // A width at the low end of all there are: narrower ones, or no lobe, would do as well.
-        if (status == ParameterStatus::at_bound && is_alpha(q.name) && !p.narrowed[i] &&
-            value <= p.bounds.low[i] * (1 + 1e-3))
-          status = ParameterStatus::not_identifiable, reason = "narrower than the samples can tell";
+        const Verdict& v = u[p.free.index(s)];
+        status = v.status;
+        error = v.std_error;
+        low = v.low_end(value);
+        high = v.high_end(value);
+        limit = v.limit;
+        reason = v.reason;
         if (status == ParameterStatus::not_identifiable) value = error = not_known;
         if (status == ParameterStatus::upper_limit && value > limit) value = not_known;
       }

@@ -291,8 +291,8 @@ LackOfFit lack_of_fit(
   }
   if (!m.told) {
     found.gains = gains_of(left, p, tests);
-    // What models miss follows no other angle by itself than that of the light, whose cosine they
-    // all know.
+    // A wrong model's residuals may look like a factor per incident angle, but not like one per other
+    // angle: so few incident angles cannot tell the two apart.
     const bool few_angles =
         std::ranges::any_of(tests.scaled,
                             [&](const auto& s) {
@@ -348,15 +348,15 @@ double with_gains(const LackOfFit& l, std::size_t i, double error, double& freed
 }
 
 void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_against) {
-  for (std::size_t i = 0; i < u.std_error.size(); ++i) {
-    double& e = u.std_error[i];
+  for (std::size_t i = 0; i < u.verdicts.size(); ++i) {
+    double& e = u[i].std_error;
     if (std::isnan(e)) continue;
     double wider = widened(e, l.widening, seen_against[i]);
     if (!l.gains.empty()) {
-      wider = with_gains(l, i, wider, u.freedom[i]);
-      u.t[i] = students_t_quantile(0.975, std::max(1.0, u.freedom[i]));
+      wider = with_gains(l, i, wider, u[i].freedom);
+      u[i].t = students_t_quantile(0.975, std::max(1.0, u[i].freedom));
     }
-    u.variance[i] *= wider * wider / (e * e);
+    u[i].variance *= wider * wider / (e * e);
     e = wider;
   }
 }

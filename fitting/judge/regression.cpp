@@ -65,8 +65,8 @@ class Clusters {
   std::vector<double> counts_;
 };
 
-/// Residuals projected: what is left when the unknowns and the gains are moved to where these scores are 0, and
-/// columns of one number per value without what unknowns and gains could take up.
+/// Residuals, and other columns of one number per value, less the part that unknowns and gains explain: their least-squares fit
+/// to the column.
 class Projected {
  public:
   Projected(const Left& left, const std::vector<SharedAngle>& axes)
@@ -96,13 +96,13 @@ class Projected {
       each(i, [&](Eigen::Index k, double j) { taken_up_[i] += j * step_[k]; });
   }
   std::size_t rank() const { return rank_; }
-  /// Residual that unknowns and gains take up.
+  /// Part of a residual that unknowns and gains explain.
   double taken_up(std::size_t i) const { return taken_up_[i]; }
   double residual(std::size_t i) const {
     const auto& v = left_.values[i];
     return v.active > 0 ? v.r - taken_up_[i] : v.r;
   }
-  /// What unknowns and gains could take up of a column: moves of the unknowns, and of each value what gains do; empty without.
+  /// Least-squares fit to a column: the unknowns' moves, and each value's change by the gains, empty without gains.
   struct Part {
     VectorXd step;
     std::vector<double> of_gains;
@@ -118,13 +118,13 @@ class Projected {
     }
     return {inverse_ * products, gains_.empty() ? scores : gains_.taken_up(scores)};
   }
-  /// What a part is of one value.
+  /// That fit at one value.
   double taken(const Part& part, std::size_t i) const {
     double sum = part.of_gains.empty() ? 0 : part.of_gains[i];
     each(i, [&](Eigen::Index k, double j) { sum += j * part.step[k]; });
     return sum;
   }
-  /// Takes that out.
+  /// Takes the fit out of a column.
   void project(std::vector<double>& column) const {
     const Part part = part_of(column);
     for (std::size_t i = 0; i < column.size(); ++i) column[i] -= taken(part, i);
@@ -160,7 +160,7 @@ class Projected {
   }
 
  private:
-  /// Unknowns that a value knows, and its derivatives by them without what gains could take up.
+  /// Unknowns of a value's channel, and its derivatives by them less the part that gains explain.
   template <class Visit>
   void each(std::size_t i, Visit&& visit) const {
     const auto& unknowns = left_.unknowns[left_.values[i].channel];

@@ -20,20 +20,17 @@ void forget_empty_channels(const Table& t, const Problem& p, Uncertainty& u) {
       continue;
     for (const auto& q : p.start.model.parameters) {
       if (q.count == 1 || !p.free.mask()[q.slot(c)]) continue;
-      u.forget(p.free.index(q.slot(c)), no_value_of_channel);
+      u[p.free.index(q.slot(c))].forget(no_value_of_channel);
     }
   }
 }
 
-}  // namespace
-
-void keep_to_what_is_seen(TableFacts& facts,
-                          const Problem& p,
-                          std::span<const double> values,
-                          bool misses,
-                          Uncertainty& u) {
+void keep_to_highlights(TableFacts& facts,
+                        const Problem& p,
+                        std::span<const double> values,
+                        bool misses,
+                        Uncertainty& u) {
   const Table& t = facts.table();
-  forget_empty_channels(t, p, u);
   if (p.start.model.lobes.empty()) return;
   if (facts.computed()) {
     forget_lobes(p, u, Lobes::whole, "each incident angle holds one constant: a computed table");
@@ -55,21 +52,44 @@ void keep_to_what_is_seen(TableFacts& facts,
   if (!narrowest || !p.free.mask()[narrowest->first]) return;
   const std::size_t i = p.free.index(narrowest->first);
   const double value = values[narrowest->first];
-  const double low = std::isnan(u.low[i]) ? value - u.t[i] * u.std_error[i] : u.low[i];
-  if (value >= 0.1 && !(low < 0.1)) return;
+  if (value >= 0.1 && !(u[i].low_end(value) < 0.1)) return;
   using enum ParameterStatus;
-  if (u.status[i] != free && u.status[i] != at_bound && u.status[i] != unbounded) return;
+  if (u[i].status != free && u[i].status != at_bound && u[i].status != unbounded) return;
   if (t.aperture) {  // the samples say how wide it is, though it lies between them
     constexpr double known = 1.0 / 32;  // of both widths: an eighth of how far h turns
     const double least = known * (t.aperture.light + t.aperture.detector);
     if (value < least)
-      u.keep_limit(i, upper_limit, least,
-                   "the lobe is narrower than an eighth of what the instrument sees at once");
+      u[i].keep_limit(upper_limit, least,
+                      "the lobe is narrower than an eighth of what the instrument sees at once");
     return;
   }
   const auto peak = facts.peak().peak;
   if (!peak || peak->resolved) return;
-  u.keep_limit(i, upper_limit, peak->alpha, "the samples do not resolve the highlight");
+  u[i].keep_limit(upper_limit, peak->alpha, "the samples do not resolve the highlight");
+}
+
+/// A width at the low end of all there are: narrower ones, or no lobe, would do as well.
+void forget_least_widths(const Problem& p, std::span<const double> values, Uncertainty& u) {
+  for (const auto& q : p.start.model.parameters) {
+    if (!is_alpha(q.name) || !p.free.mask()[q.first]) continue;
+    const std::size_t i = p.free.index(q.first);
+    constexpr double next_to = 1 + 1e-3;
+    if (u[i].status == ParameterStatus::at_bound && !p.narrowed[i] &&
+        values[q.first] <= p.bounds.low[i] * next_to)
+      u[i].forget("narrower than the samples can tell");
+  }
+}
+
+}  // namespace
+
+void keep_to_what_is_seen(TableFacts& facts,
+                          const Problem& p,
+                          std::span<const double> values,
+                          bool misses,
+                          Uncertainty& u) {
+  forget_empty_channels(facts.table(), p, u);
+  keep_to_highlights(facts, p, values, misses, u);
+  forget_least_widths(p, values, u);
 }
 
 }  // namespace gonio

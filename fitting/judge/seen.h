@@ -16,7 +16,8 @@ inline constexpr const char* no_value_of_channel = "no value of its channel can 
 ///   all of a lobe, where each incident angle holds one constant;
 ///   its F0 or indices, where the larger highlight is at wo = wi and the model misses it: they would scale
 ///   the other alone;
-///   the width of a measured highlight that the samples do not resolve, which has an upper limit.
+///   the width of a measured highlight that the samples do not resolve, which has an upper limit;
+///   a width at the low end of all there are.
 /// \param values  of all slots, fitted   \param misses  whether the model does not reproduce the table
 void keep_to_what_is_seen(
     TableFacts&, const Problem&, std::span<const double> values, bool misses, Uncertainty&);

@@ -203,13 +203,17 @@ class Covariance {
 
 }  // namespace
 
-Uncertainty::Uncertainty(std::size_t n) : status(n, ParameterStatus::free), reason(n) {
+Uncertainty::Uncertainty(std::size_t n) : verdicts(n) {
   constexpr std::size_t most = 128;
   correlated.resize(n <= most ? n : 0);
   std::iota(correlated.begin(), correlated.end(), std::size_t{0});
   correlations.assign(correlated.size(), std::vector<double>(correlated.size(), not_known));
-  for (auto* x : {&std_error, &t, &low, &high, &limit, &freedom, &variance})
-    x->assign(n, not_known);
+}
+
+std::vector<double> Uncertainty::std_errors() const {
+  std::vector<double> all;
+  for (const auto& v : verdicts) all.push_back(v.std_error);
+  return all;
 }
 
 Determined find_determined(const ArrowMatrix& bread,
@@ -262,15 +266,16 @@ Uncertainty uncertainty(const Sandwich& s,
   Determined found = find_determined(s.bread, x, bounds);
   const auto& determined = found.unknowns;
   Uncertainty u(n);
-  u.status = std::move(found.status);
   u.condition = found.condition;
-  for (std::size_t i = 0; i < n; ++i)
-    if (u.status[i] == ParameterStatus::not_identifiable)
-      u.reason[i] = "other values of the rest make up for any change of it";
+  for (std::size_t i = 0; i < n; ++i) {
+    u[i].status = found.status[i];
+    if (u[i].status == ParameterStatus::not_identifiable)
+      u[i].reason = "other values of the rest make up for any change of it";
+  }
   if (determined.empty()) return u;
   // What stands at a bound takes up nothing of the values.
   const auto unknowns = static_cast<double>(std::ranges::count_if(
-      u.status, [](auto status) { return status != ParameterStatus::at_bound; }));
+      found.status, [](auto status) { return status != ParameterStatus::at_bound; }));
 
   const auto layout = std::make_shared<const ArrowLayout>(s.bread.layout().part(determined));
   const ArrowInverse bread(s.bread.part(layout, determined));
@@ -286,25 +291,25 @@ Uncertainty uncertainty(const Sandwich& s,
   for (std::size_t a = 0; a < determined.size(); ++a) {
     const std::size_t i = determined[a];
     if (!stated && (std::isnan(covariance.freedom(a)) || samples_used <= unknowns)) {
-      u.reason[i] = samples_used <= unknowns ? "no more values than unknowns"
+      u[i].reason = samples_used <= unknowns ? "no more values than unknowns"
                     : s.clusters.empty()
                         ? "only one value determines it: no interval holds"
                         : "only one incident angle determines it: no interval holds";
       continue;
     }
     constexpr double many = 1e9;
-    u.freedom[i] = stated ? many : covariance.freedom(a);
-    u.variance[i] = variance[a] / bread(a, a);
-    const double error = std::sqrt(variance[a]), t = students_t_quantile(0.975, u.freedom[i]);
-    if (2 * t * error >= bounds.high[i] - bounds.low[i]) {
-      u.forget(i, "its interval is as wide as its range");
+    u[i].freedom = stated ? many : covariance.freedom(a);
+    u[i].variance = variance[a] / bread(a, a);
+    const double error = std::sqrt(variance[a]), t = students_t_quantile(0.975, u[i].freedom);
+    if (fills(t * error, bounds.high[i] - bounds.low[i])) {
+      u[i].forget("its interval is as wide as its range");
       continue;
     }
-    u.std_error[i] = error;
-    u.t[i] = t;
+    u[i].std_error = error;
+    u[i].t = t;
   }
   const auto correlation = [&](std::size_t a, std::size_t b) {
-    if (std::isnan(u.std_error[determined[a]])) return not_known;
+    if (std::isnan(u[determined[a]].std_error)) return not_known;
     return covariance_of(a, b) / std::sqrt(variance[a] * variance[b]);
   };
   if (!u.correlated.empty()) {
@@ -336,28 +341,22 @@ Uncertainty uncertainty(const Sandwich& s,
   return u;
 }
 
-void Uncertainty::forget(std::size_t i, std::string why) {
-  keep_limit(i, ParameterStatus::not_identifiable, not_known, std::move(why));
+void Verdict::forget(std::string why) {
+  keep_limit(ParameterStatus::not_identifiable, not_known, std::move(why));
 }
 
-void Uncertainty::keep_limit(std::size_t i, ParameterStatus side, double bound, std::string why) {
-  status[i] = side;
-  std_error[i] = low[i] = high[i] = not_known;
-  limit[i] = bound;
-  reason[i] = std::move(why);
+void Verdict::keep_limit(ParameterStatus side, double bound, std::string why) {
+  status = side;
+  std_error = low = high = not_known;
+  limit = bound;
+  reason = std::move(why);
 }
 
 Uncertainty wider(Uncertainty a, const Uncertainty& b) {
-  for (std::size_t i = 0; i < a.status.size(); ++i) {
-    // Not larger than: that of NaN, too.
-    if (b.std_error[i] * b.t[i] <= a.std_error[i] * a.t[i] || std::isnan(a.std_error[i])) continue;
-    a.status[i] = b.status[i];
-    a.std_error[i] = b.std_error[i];
-    a.t[i] = b.t[i];
-    a.reason[i] = b.reason[i];
-    a.freedom[i] = b.freedom[i];
-    a.variance[i] = b.variance[i];
-  }
+  for (std::size_t i = 0; i < a.verdicts.size(); ++i)
+    // Larger, or NaN.
+    if (!(b[i].std_error * b[i].t <= a[i].std_error * a[i].t) && !std::isnan(a[i].std_error))
+      a[i] = b[i];
   return a;
 }
 

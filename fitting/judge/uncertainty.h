@@ -2,6 +2,7 @@
 /// \file
 /// Uncertainty of the parameters: how well the data determine them.
 
+#include <cmath>
 #include <limits>
 #include <string>
 #include <vector>
@@ -29,30 +30,54 @@ Determined find_determined(const ArrowMatrix& bread,
                            const Bounds&,
                            double singular = 1e-11);
 
-/// Per free slot, in their order.
-struct Uncertainty {
-  Uncertainty() = default;
-  /// Nothing is known of that many.
-  explicit Uncertainty(std::size_t unknowns);
-  /// Takes an unknown's value away: the data do not give it.
-  void forget(std::size_t i, std::string why);
-  /// Leaves it a one-sided 95 % bound.  \param side  upper_limit or lower_limit
-  void keep_limit(std::size_t i, ParameterStatus side, double bound, std::string why);
+/// What the data say of one unknown.
+///
+/// Judges speak one after the other, and a later one has the last word:
+/// 1. uncertainty(): at a bound, not identifiable beside the others, or a standard error and its interval;
+/// 2. widen(): the interval allows for a misfit and for gains that angles share;
+/// 3. find_undetermined(): what the cost itself leaves open takes the value, a limit or the ends of the interval;
+/// 4. keep_to_what_is_seen(): so does what the table cannot show of any model;
+/// 5. bootstrap(), where asked: ends of the intervals that are left.
+/// A texel of a map stops after the first: its status is of find_determined() and of fills().
+struct Verdict {
+  ParameterStatus status = ParameterStatus::free;
+  double std_error = not_known;
+  double t = not_known;  ///< half width of the 95 % interval in standard errors
+  double low = not_known,
+         high = not_known;   ///< ends of an interval that is not ± t standard errors
+  double limit = not_known;  ///< one-sided 95 % bound of an upper_limit or lower_limit
+  /// Degrees of freedom, and the variance of one value's residual for which the bread alone would give that error.
+  double freedom = not_known, variance = not_known;
+  std::string reason = {};  ///< why there is no more than that; else empty
 
-  std::vector<ParameterStatus> status;
-  std::vector<double> std_error;  ///< NaN where not known
-  std::vector<double> t;          ///< half width of the 95 % interval in standard errors
-  std::vector<double> low, high;  ///< ends of an interval that is not ± t standard errors; else NaN
-  std::vector<double> limit;  ///< one-sided 95 % bound of an upper_limit or lower_limit; else NaN
-  std::vector<std::string> reason;  ///< why there is no more than that; else empty
-  /// Degrees of freedom, and the variance of one value's residual for which the bread alone would give
-  /// that error; NaN where not known.
-  std::vector<double> freedom, variance;
+  /// Takes the value away: the data do not give it.
+  void forget(std::string why);
+  /// Leaves a one-sided 95 % bound.  \param side  upper_limit or lower_limit
+  void keep_limit(ParameterStatus side, double bound, std::string why);
+  /// Ends of the 95 % interval about the unknown's value; NaN without a standard error.
+  double low_end(double value) const { return std::isnan(low) ? value - t * std_error : low; }
+  double high_end(double value) const { return std::isnan(high) ? value + t * std_error : high; }
+};
+/// True of a 95 % interval as wide as the range of its parameter, which is then not identifiable.
+inline bool fills(double half_width, double range) {
+  return 2 * half_width >= range;
+}
+
+/// Verdicts of all unknowns, by the number of the free slot.
+struct Uncertainty {
+  std::vector<Verdict> verdicts;
+  Verdict& operator[](std::size_t i) { return verdicts[i]; }
+  const Verdict& operator[](std::size_t i) const { return verdicts[i]; }
+  std::vector<double> std_errors() const;
   /// Correlations of some of the unknowns, NaN for what has no error.  Of many unknowns they are those that all channels share and
   /// those of one channel, in which two are hardest to tell apart: others take place with the square of the channels.
   std::vector<std::size_t> correlated;
   std::vector<std::vector<double>> correlations;
   double condition = 1;  ///< see Determined
+
+  Uncertainty() = default;
+  /// Nothing is known of that many.
+  explicit Uncertainty(std::size_t unknowns);
 };
 
 /// Standard errors by the sandwich B⁻¹ M B⁻¹, which holds whether or not the metric whitens the noise,

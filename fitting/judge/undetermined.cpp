@@ -49,8 +49,8 @@ class Ends {
         freedom_(std::max(freedom, 1.0)),
         u_(u) {
     // Of what has no error of its own the least well known one's.
-    for (const double v : u.variance)
-      if (v > variance) variance = v;
+    for (const auto& v : u.verdicts)
+      if (v.variance > variance) variance = v.variance;
     variance_ = variance;
   }
 
@@ -59,7 +59,7 @@ class Ends {
   void find_limit(std::size_t i, double luck) const {
     const double low = problem_.bounds.low[i], high = problem_.bounds.high[i];
     const auto forget = [&] {
-      u_.forget(i, fmt::format("any value from {:.3g} to {:.3g} does as well", low, high));
+      u_[i].forget(fmt::format("any value from {:.3g} to {:.3g} does as well", low, high));
     };
     const double t = students_t_quantile(0.95, freedom(i)), much = t * t * variance(i) * share_;
     CostAlong along(problem_, thin_, best_, i);
@@ -69,8 +69,8 @@ class Ends {
     const double end = below ? high : low;
     const double limit = along.reach(end, much);
     if (limit == end) return forget();
-    u_.keep_limit(
-        i, below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit, limit,
+    u_[i].keep_limit(
+        below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit, limit,
         fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high));
   }
 
@@ -80,16 +80,16 @@ class Ends {
     CostAlong along(problem_, thin_, best_, i);
     const double here = best_.model.values[problem_.free.slots()[i]];
     const double found = fitted_.model.values[problem_.free.slots()[i]];
-    u_.status[i] = ParameterStatus::free;
+    u_[i].status = ParameterStatus::free;
     // Of the thinned samples, moved to the value of all; a bound is a bound of both.
     const auto reached = [&](double bound) {
       const double end = along.reach(bound, much);
       return end == bound ? bound : found + end - here;
     };
-    u_.low[i] = reached(problem_.bounds.low[i]);
-    u_.high[i] = reached(problem_.bounds.high[i]);
-    if (std::isnan(u_.std_error[i])) u_.std_error[i] = (u_.high[i] - u_.low[i]) / (2 * t);
-    u_.reason[i].clear();
+    u_[i].low = reached(problem_.bounds.low[i]);
+    u_[i].high = reached(problem_.bounds.high[i]);
+    if (std::isnan(u_[i].std_error)) u_[i].std_error = (u_[i].high - u_[i].low) / (2 * t);
+    u_[i].reason.clear();
   }
 
   /// True where the cost half-way to the ends of x ± t σ, all others moving along a straight line, is
@@ -98,12 +98,12 @@ class Ends {
     const auto& h = best_.solution.at.h;
     std::vector<std::size_t> moving;
     for (std::size_t k = 0; k < h.size(); ++k)
-      if (!std::isnan(u_.std_error[k])) moving.push_back(k);
+      if (!std::isnan(u_[k].std_error)) moving.push_back(k);
     const auto layout = std::make_shared<const ArrowLayout>(h.layout().part(moving));
     const ArrowInverse inverse(h.part(layout, moving));
     const auto at = static_cast<std::size_t>(std::ranges::find(moving, i) - moving.begin());
     // The interval of so many values as are looked at.
-    const double width = u_.t[i] * u_.std_error[i] / std::sqrt(share_);
+    const double width = u_[i].t * u_[i].std_error / std::sqrt(share_);
     for (const double step : {-width, width}) {
       auto values = best_.model.values;
       for (std::size_t k = 0; k < moving.size(); ++k) {
@@ -123,8 +123,8 @@ class Ends {
     const auto& h = best_.solution.at.h;
     const auto& layout = h.layout();
     for (std::size_t k = 0; k < h.size(); ++k) {
-      if (u_.status[k] != ParameterStatus::upper_limit &&
-          u_.status[k] != ParameterStatus::lower_limit)
+      if (u_[k].status != ParameterStatus::upper_limit &&
+          u_[k].status != ParameterStatus::lower_limit)
         continue;
       const bool meet = layout.arm(i) == layout.arm(k) || layout.arm(i) == ArrowLayout::none ||
                         layout.arm(k) == ArrowLayout::none;
@@ -139,10 +139,10 @@ class Ends {
 
  private:
   double freedom(std::size_t i) const {
-    return std::isnan(u_.freedom[i]) ? freedom_ : u_.freedom[i];
+    return std::isnan(u_[i].freedom) ? freedom_ : u_[i].freedom;
   }
   double variance(std::size_t i) const {
-    return std::isnan(u_.variance[i]) ? variance_ : u_.variance[i];
+    return std::isnan(u_[i].variance) ? variance_ : u_[i].variance;
   }
 
   const Problem& problem_;
@@ -188,7 +188,7 @@ void forget_lobes(const Problem& p, Uncertainty& u, Lobes part, const std::strin
       for (const std::size_t k : t->parameters) {
         const auto& q = p.start.model.parameters[k];
         for (std::size_t s = q.first; s < q.first + q.count; ++s) {
-          if (p.free.mask()[s]) u.forget(p.free.index(s), why);
+          if (p.free.mask()[s]) u[p.free.index(s)].forget(why);
         }
       }
     }
@@ -214,12 +214,12 @@ bool find_undetermined(const Problem& p,
   const auto costs = accumulate.channel_costs(f.model.values);
   std::vector<bool> had_range(n);  // in which it is known no better: a limit may be
   for (std::size_t i = 0; i < n; ++i)
-    had_range[i] = u.status[i] == ParameterStatus::not_identifiable && !std::isnan(u.freedom[i]);
+    had_range[i] = u[i].status == ParameterStatus::not_identifiable && !std::isnan(u[i].freedom);
   for (const auto& q : p.start.model.parameters) {
     std::vector<std::size_t> asked;
     for (std::size_t s = q.first; s < q.first + q.count; ++s)
       if (p.free.mask()[s] &&
-          (!q.about->per_channel || u.status[p.free.index(s)] == ParameterStatus::at_bound))
+          (!q.about->per_channel || u[p.free.index(s)].status == ParameterStatus::at_bound))
         asked.push_back(s);
     if (asked.empty()) continue;
     // All channels' values are moved at once: each changes its own channel's cost alone.
@@ -238,7 +238,7 @@ bool find_undetermined(const Problem& p,
     }
     for (const std::size_t s : asked)
       if (2 * most[s - q.first] < luck * variance)
-        u.forget(p.free.index(s), "moved over its whole range it changes no more than luck does");
+        u[p.free.index(s)].forget("moved over its whole range it changes no more than luck does");
   }
 
   if (forget_needless_lobes(p, thin, f, here.cost, luck * variance, u)) return true;
@@ -251,34 +251,33 @@ bool find_undetermined(const Problem& p,
   const double left = count / share - static_cast<double>(n);
   const Ends ends(p, thin, best, f, variance, share, left, u);
   for (std::size_t i = 0; i < n; ++i) {
-    if (u.status[i] == ParameterStatus::at_bound) {
+    if (u[i].status == ParameterStatus::at_bound) {
       if (!p.narrowed[i] && !is_pushed(here, i, count - static_cast<double>(n), rounding))
         ends.find_limit(i, luck * variance);
-    } else if (u.status[i] == ParameterStatus::not_identifiable && had_range[i]) {
+    } else if (u[i].status == ParameterStatus::not_identifiable && had_range[i]) {
       ends.find_limit(i, luck * variance);
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (std::isnan(u.std_error[i]) || !std::isnan(u.low[i])) continue;
-    const double x = f.model.values[p.free.slots()[i]], width = u.t[i] * u.std_error[i];
+    if (std::isnan(u[i].std_error) || !std::isnan(u[i].low)) continue;
+    const double x = f.model.values[p.free.slots()[i]], width = u[i].t * u[i].std_error;
     constexpr double small = 0.03;  // of the value: no cost bends within so little
     if (ends.is_tied_to_a_limit(i) ||
         (width > small * std::abs(x) && !ends.is_parabola(i, accumulate)))
       ends.find_ends(i);
   }
   for (std::size_t i = 0; i < n; ++i) {
-    if (std::isnan(u.std_error[i])) continue;
-    const double x = f.model.values[p.free.slots()[i]], width = u.t[i] * u.std_error[i];
-    const double low = std::isnan(u.low[i]) ? x - width : u.low[i],
-                 high = std::isnan(u.high[i]) ? x + width : u.high[i];
+    if (std::isnan(u[i].std_error)) continue;
+    const double x = f.model.values[p.free.slots()[i]];
+    const double low = u[i].low_end(x), high = u[i].high_end(x);
     const double some = 0.01 * (p.bounds.high[i] - p.bounds.low[i]);
     if (!(low <= p.bounds.low[i] + some && high >= p.bounds.high[i] - some)) continue;
     if (widened) {  // by what the model cannot describe: of this model it is still the best value
-      u.status[i] = ParameterStatus::unbounded;
-      u.reason[i] = "best value for this model; the model is too wrong to bound it";
+      u[i].status = ParameterStatus::unbounded;
+      u[i].reason = "best value for this model; the model is too wrong to bound it";
       continue;
     }
-    u.forget(i, "its interval is as wide as its range");
+    u[i].forget("its interval is as wide as its range");
   }
   return false;
 }

@@ -108,10 +108,12 @@ std::optional<ProcessResult> run_program(const std::string& name,
 namespace {
 
 /// Signals that end a run and take its unfinished files with it.
+constexpr std::array ending{SIGINT, SIGTERM, SIGHUP};
+
 sigset_t ending_signals() {
   sigset_t all;
   sigemptyset(&all);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&all, signal);
+  for (const int signal : ending) sigaddset(&all, signal);
   return all;
 }
 
@@ -119,7 +121,7 @@ sigset_t ending_signals() {
                            int to,
                            pid_t parent,
                            const sigset_t& signals_before) {
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+  for (const int signal : ending)
     if (struct sigaction now{};
         ::sigaction(signal, nullptr, &now) == 0 && now.sa_handler != SIG_IGN)
       ::signal(signal, SIG_DFL);

@@ -163,7 +163,10 @@ const std::vector<WideLight>& wide_lights() {
 }
 
 WideSphere::WideSphere(std::size_t pixels, std::size_t light)
-    : lights_(lighting(light)), pixels_(pixels) {}
+    : lights_(lighting(light)), pixels_(pixels) {
+  for (std::size_t i = 0; i < pixels * pixels; ++i)
+    if (const auto frame = sphere_frame(pixels, i)) points_.push_back({i, *frame});
+}
 
 std::size_t WideSphere::gather(const Surface& s) {
   // A pass takes, of each pixel's points, one far from that of the pass before; all passes take
@@ -174,14 +177,12 @@ std::size_t WideSphere::gather(const Surface& s) {
   std::vector<double> weights;
   std::vector<scene::Incident> light;
   sums_.resize(s.channels(), std::vector<double>(pixels_ * pixels_));
-  for (std::size_t i = 0; i < pixels_ * pixels_; ++i) {
-    const auto frame = sphere_frame(pixels_, i);
-    if (!frame) continue;
-    Draws draw(i);
+  for (const auto& [pixel, frame] : points_) {
+    Draws draw(pixel);
     light.clear();
-    lights_.incident(vector_of(frame->z), *frame, towards_viewer, widths, 1, draw, light, part);
+    lights_.incident(vector_of(frame.z), frame, towards_viewer, widths, 1, draw, light, part);
     for (const auto& l : light) {
-      points.push_back({i, {frame->inside(l.direction), frame->inside(towards_viewer)}});
+      points.push_back({pixel, {frame.inside(l.direction), frame.inside(towards_viewer)}});
       weights.push_back(l.weight[0]);  // these lights are grey
     }
   }
@@ -194,10 +195,9 @@ std::size_t WideSphere::gather(const Surface& s) {
 }
 
 Channels WideSphere::radiance() const {
-  Channels mean = sums_;
-  for (auto& channel : mean)
-    for (std::size_t i = 0; i < channel.size(); ++i)
-      channel[i] = sphere_frame(pixels_, i) ? channel[i] / static_cast<double>(done_) : beside;
+  Channels mean(sums_.size(), std::vector<double>(pixels_ * pixels_, beside));
+  for (std::size_t c = 0; c < mean.size(); ++c)
+    for (const auto& p : points_) mean[c][p.pixel] = sums_[c][p.pixel] / static_cast<double>(done_);
   return mean;
 }
 

@@ -60,8 +60,13 @@ class WideSphere {
   Channels radiance() const;
 
  private:
+  struct Point {
+    std::size_t pixel;
+    Frame frame;
+  };
   const scene::Lighting& lights_;
   std::size_t pixels_, done_ = 0;
+  std::vector<Point> points_;  ///< of the sphere
   Channels sums_;
 };
 

@@ -20,8 +20,7 @@ TEST(Description, GivesRoughnessTheErrorAndTheIntervalThatItsSquareHas) {
   o.model = to_text(truth.model.spec);
   const Problem p = pose(t, o);
   Uncertainty u(3);
-  u.std_error.assign(3, 0.008);
-  u.t.assign(3, 2);
+  for (auto& v : u.verdicts) v.std_error = 0.008, v.t = 2;
   FitDocument d;
   d.channels = t.channels;
   describe(d, p, truth.values, u);
@@ -45,10 +44,9 @@ TEST(Description, TellsNoValueOfWhatIsNotIdentifiableAndNoErrorOfWhatIsFixed) {
   o.fixed = parse_settings(std::vector<std::string>{"alpha=0.3"});
   const Problem p = pose(t, o);
   Uncertainty u(4);
-  u.std_error.assign(4, 0.01);
-  u.t.assign(4, 2);
+  for (auto& v : u.verdicts) v.std_error = 0.01, v.t = 2;
   const std::size_t lost = p.free.index(truth.model.find("kd")->first + 1);
-  u.status[lost] = ParameterStatus::not_identifiable;
+  u[lost].status = ParameterStatus::not_identifiable;
   FitDocument d;
   d.channels = t.channels;
   describe(d, p, truth.values, u);

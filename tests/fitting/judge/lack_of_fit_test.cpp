@@ -526,18 +526,18 @@ TEST(OddAngle, IsNamedWhereOneFileOfSixHasAnotherScaleAndNeitherOfAWrongModelNor
 }
 
 TEST(LackOfFit, WidensTheIntervals) {
-  Uncertainty u;
-  u.std_error = {0.1, std::nan("")};
-  u.variance = {1, std::nan("")};
+  Uncertainty u(2);
+  u[0].std_error = 0.1;
+  u[0].variance = 1;
   auto few = u;
-  widen(u, LackOfFit{{}, 3}, u.std_error);
-  EXPECT_NEAR(u.std_error[0], 0.3, 1e-15);
-  EXPECT_NEAR(u.variance[0], 9, 1e-14);
-  EXPECT_TRUE(std::isnan(u.std_error[1]));
+  widen(u, LackOfFit{{}, 3}, u.std_errors());
+  EXPECT_NEAR(u[0].std_error, 0.3, 1e-15);
+  EXPECT_NEAR(u[0].variance, 9, 1e-14);
+  EXPECT_TRUE(std::isnan(u[1].std_error));
   // Of clusters that make wide intervals as they are.
   const std::vector<double> values{0.01, 0.01};
   widen(few, LackOfFit{{}, 3}, values);
-  EXPECT_NEAR(few.std_error[0], std::sqrt(0.01 + 8 * 1e-4), 1e-15);
+  EXPECT_NEAR(few[0].std_error, std::sqrt(0.01 + 8 * 1e-4), 1e-15);
 }
 
 TEST(LackOfFit, IsIncludedInTheIntervals) {

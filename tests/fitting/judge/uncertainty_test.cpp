@@ -19,13 +19,13 @@ TEST(Uncertainty, TellsSingularDirectionsFromKnownParameters) {
   const std::vector<double> x{0.3, 0.3, 0.5, 1, 0.5};
   const auto u =
       uncertainty(s, x, {std::vector<double>(5, 0), std::vector<double>(5, 1)}, 1'000'000);
-  EXPECT_EQ(u.status[0], ParameterStatus::not_identifiable);
-  EXPECT_EQ(u.status[1], ParameterStatus::not_identifiable);
-  EXPECT_EQ(u.status[2], ParameterStatus::free);
-  EXPECT_NEAR(u.std_error[2], 0.1, 1e-6);
-  EXPECT_EQ(u.status[3], ParameterStatus::at_bound);
-  EXPECT_EQ(u.status[4], ParameterStatus::not_identifiable);
-  EXPECT_TRUE(std::isnan(u.std_error[3]));
+  EXPECT_EQ(u[0].status, ParameterStatus::not_identifiable);
+  EXPECT_EQ(u[1].status, ParameterStatus::not_identifiable);
+  EXPECT_EQ(u[2].status, ParameterStatus::free);
+  EXPECT_NEAR(u[2].std_error, 0.1, 1e-6);
+  EXPECT_EQ(u[3].status, ParameterStatus::at_bound);
+  EXPECT_EQ(u[4].status, ParameterStatus::not_identifiable);
+  EXPECT_TRUE(std::isnan(u[3].std_error));
 }
 
 TEST(Uncertainty, TakesStudentsQuantileFromTheTables) {
@@ -48,9 +48,9 @@ struct ByHand {
 TEST(Uncertainty, OfIndependentValuesIsTheSandwich) {
   const ByHand h;
   const auto u = uncertainty(h.s, h.x, h.bounds, 102);
-  EXPECT_NEAR(u.std_error[0], std::sqrt(16.0 / 12100), 1e-12);
-  EXPECT_NEAR(u.std_error[1], std::sqrt(14.0 / 12100), 1e-12);
-  EXPECT_NEAR(u.t[0], students_t_quantile(0.975, 100), 1e-12);
+  EXPECT_NEAR(u[0].std_error, std::sqrt(16.0 / 12100), 1e-12);
+  EXPECT_NEAR(u[1].std_error, std::sqrt(14.0 / 12100), 1e-12);
+  EXPECT_NEAR(u[0].t, students_t_quantile(0.975, 100), 1e-12);
   EXPECT_NEAR(u.correlations[0][1], -3.5 / std::sqrt(16 * 14.0), 1e-12);
   EXPECT_NEAR(u.correlations[1][1], 1, 1e-12);
   // Scaled to a unit diagonal the bread has 1/√12 beside it.
@@ -62,16 +62,16 @@ TEST(Uncertainty, CountsTheValuesThatAParameterRestsOn) {
   h.s.fourth = {1.0 / 7, 1e-9};  // seven alike; all
   h.s.alone = h.s.moves = {0, 0};
   auto u = uncertainty(h.s, h.x, h.bounds, 102);
-  EXPECT_NEAR(u.t[0], students_t_quantile(0.975, 7), 1e-9);
-  EXPECT_NEAR(u.t[1], students_t_quantile(0.975, 100), 1e-9);
+  EXPECT_NEAR(u[0].t, students_t_quantile(0.975, 7), 1e-9);
+  EXPECT_NEAR(u[1].t, students_t_quantile(0.975, 100), 1e-9);
   // Four of them make the variance: 3 V²/Σ v², V = (16/12100)/(3/1100) of the first.
   h.s.moves = {std::pow(16.0 / 12100 * 1100 / 3, 2) * 3 / 4.5, 0};
-  EXPECT_NEAR(uncertainty(h.s, h.x, h.bounds, 102).t[0], students_t_quantile(0.975, 4.5), 1e-9);
+  EXPECT_NEAR(uncertainty(h.s, h.x, h.bounds, 102)[0].t, students_t_quantile(0.975, 4.5), 1e-9);
   h.s.alone = {0.02, 0.001};  // of its variance, from values of leverage 1
   u = uncertainty(h.s, h.x, h.bounds, 102);
-  EXPECT_EQ(u.status[0], ParameterStatus::free);
-  EXPECT_TRUE(std::isnan(u.std_error[0]));
-  EXPECT_FALSE(std::isnan(u.std_error[1]));
+  EXPECT_EQ(u[0].status, ParameterStatus::free);
+  EXPECT_TRUE(std::isnan(u[0].std_error));
+  EXPECT_FALSE(std::isnan(u[1].std_error));
 }
 
 /// Least squares of y = J x by the normal equations, the rows of one cluster left out.
@@ -140,8 +140,8 @@ TEST(Uncertainty, OfClustersIsTheMovesWhenEachIsLeftOut) {
   }
   EXPECT_NEAR(shares, 1, 1e-12);
   for (std::size_t k = 0; k < 2; ++k)
-    EXPECT_NEAR(u.std_error[k], std::sqrt(squares[k]), 1e-12) << k;
-  EXPECT_NEAR(u.t[0],
+    EXPECT_NEAR(u[k].std_error, std::sqrt(squares[k]), 1e-12) << k;
+  EXPECT_NEAR(u[0].t,
               students_t_quantile(
                   0.975, std::min({1 / fourth, 4.0, 3 * squares[0] * squares[0] / quartic})),
               1e-9);
@@ -170,8 +170,8 @@ TEST(Uncertainty, OfClustersOfOneValueIsThatOfIndependentValues) {
   const auto p = uncertainty(s, std::vector{0.0, 0.0}, bounds, 23);
   const auto q = uncertainty(values, std::vector{0.0, 0.0}, bounds, 23);
   for (std::size_t k = 0; k < 2; ++k) {
-    EXPECT_NEAR(p.std_error[k] / q.std_error[k], 1, 1e-10);
-    EXPECT_NEAR(p.t[k], q.t[k], 1e-9);
+    EXPECT_NEAR(p[k].std_error / q[k].std_error, 1, 1e-10);
+    EXPECT_NEAR(p[k].t, q[k].t, 1e-9);
   }
 }
 
@@ -180,36 +180,35 @@ TEST(Uncertainty, KnowsNoErrorOfWhatOneClusterAloneDetermines) {
   for (std::size_t i = 0; i < l.j.size(); ++i)
     if (l.cluster[i] != 2) l.j[i][1] = 0;  // the others say nothing of the second
   const auto u = uncertainty(l.sandwich(5), std::vector{0.0, 0.0}, {{-10, -10}, {10, 10}}, 23);
-  EXPECT_EQ(u.status[1], ParameterStatus::free);
-  EXPECT_TRUE(std::isnan(u.std_error[1]));
-  EXPECT_FALSE(std::isnan(u.std_error[0]));
+  EXPECT_EQ(u[1].status, ParameterStatus::free);
+  EXPECT_TRUE(std::isnan(u[1].std_error));
+  EXPECT_FALSE(std::isnan(u[0].std_error));
 }
 
 TEST(Uncertainty, IsTheWiderOfTwo) {
   Uncertainty a(3);
-  a.std_error = {1, 1, 1};
-  a.t = {2, 4, 2};
-  Uncertainty b = a;
-  b.std_error = {3, 1.5, std::nan("")};
-  b.t = {2, 2, 2};
+  Uncertainty b(3);
+  const auto put = [](Verdict& v, double error, double t) { v.std_error = error, v.t = t; };
+  put(a[0], 1, 2), put(a[1], 1, 4), put(a[2], 1, 2);
+  put(b[0], 3, 2), put(b[1], 1.5, 2), put(b[2], std::nan(""), 2);
   const auto w = wider(a, b);
-  EXPECT_EQ(w.std_error[0], 3);
-  EXPECT_EQ(w.std_error[1], 1);
-  EXPECT_EQ(w.t[1], 4);
-  EXPECT_TRUE(std::isnan(w.std_error[2]));
-  EXPECT_TRUE(std::isnan(wider(b, a).std_error[2]));
+  EXPECT_EQ(w[0].std_error, 3);
+  EXPECT_EQ(w[1].std_error, 1);
+  EXPECT_EQ(w[1].t, 4);
+  EXPECT_TRUE(std::isnan(w[2].std_error));
+  EXPECT_TRUE(std::isnan(wider(b, a)[2].std_error));
 }
 
 TEST(Uncertainty, LosesADirectionWhenItsScaledEigenvalueIsBelowOneInTenToTheEleventh) {
-  const auto status = [](double eigenvalue) {  // of (1 ρ; ρ 1): 1 − ρ and 1 + ρ
+  const auto told = [](double eigenvalue) {  // of (1 ρ; ρ 1): 1 − ρ and 1 + ρ
     const double all = 1e20, rho = 1 - eigenvalue;
     const Sandwich s{
         {all, all * rho, all * rho, all}, {all, all * rho, all * rho, all}, {}, {}, {}, {}};
-    return uncertainty(s, std::vector{0.5, 0.5}, {{0, 0}, {1, 1}}, 1000).status;
+    return uncertainty(s, std::vector{0.5, 0.5}, {{0, 0}, {1, 1}}, 1000);
   };
   for (const auto i : {0U, 1U}) {
-    EXPECT_EQ(status(3e-12)[i], ParameterStatus::not_identifiable);
-    EXPECT_EQ(status(3e-11)[i], ParameterStatus::free);
+    EXPECT_EQ(told(3e-12)[i].status, ParameterStatus::not_identifiable);
+    EXPECT_EQ(told(3e-11)[i].status, ParameterStatus::free);
   }
 }
 
@@ -274,17 +273,17 @@ TEST(Uncertainty, IsTheSameWithChannelsAsArms) {
       const auto a = uncertainty({bread.dense, meat.dense, dense, {}, {}, {}}, x, bounds, 100);
       const auto b = uncertainty({bread.arrow, meat.arrow, arrow, {}, {}, {}}, x, bounds, 100);
       EXPECT_EQ(a.status, b.status);
-      EXPECT_EQ(a.status[5],
+      EXPECT_EQ(a[5].status,
                 rows == twin ? ParameterStatus::not_identifiable : ParameterStatus::free);
       if (rows != twin) {
         EXPECT_NEAR(b.condition / a.condition, 1, 1e-9);
       }
       for (std::size_t i = 0; i < 7; ++i) {
-        if (a.status[i] != ParameterStatus::free) continue;
-        EXPECT_NEAR(b.std_error[i] / a.std_error[i], 1, 1e-8);
-        EXPECT_NEAR(b.t[i] / a.t[i], 1, 1e-8);
+        if (a[i].status != ParameterStatus::free) continue;
+        EXPECT_NEAR(b[i].std_error / a[i].std_error, 1, 1e-8);
+        EXPECT_NEAR(b[i].t / a[i].t, 1, 1e-8);
         for (std::size_t k = 0; k < 7; ++k) {
-          if (a.status[k] != ParameterStatus::free) continue;
+          if (a[k].status != ParameterStatus::free) continue;
           EXPECT_NEAR(b.correlations[i][k], a.correlations[i][k], 1e-8);
         }
       }
@@ -293,10 +292,10 @@ TEST(Uncertainty, IsTheSameWithChannelsAsArms) {
 
 TEST(Uncertainty, KnowsNothingWithoutADegreeOfFreedom) {
   ByHand h;
-  EXPECT_TRUE(std::isnan(uncertainty(h.s, h.x, h.bounds, 2).std_error[0]));
-  EXPECT_FALSE(std::isnan(uncertainty(h.s, h.x, h.bounds, 3).std_error[0]));
+  EXPECT_TRUE(std::isnan(uncertainty(h.s, h.x, h.bounds, 2)[0].std_error));
+  EXPECT_FALSE(std::isnan(uncertainty(h.s, h.x, h.bounds, 3)[0].std_error));
   h.s.clusters = {{h.s.bread, {0, 0}}};
-  EXPECT_TRUE(std::isnan(uncertainty(h.s, h.x, h.bounds, 100).std_error[0]));
+  EXPECT_TRUE(std::isnan(uncertainty(h.s, h.x, h.bounds, 100)[0].std_error));
 }
 
 /// Every channel's matrix would take place with their square.

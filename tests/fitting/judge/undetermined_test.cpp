@@ -109,7 +109,7 @@ TEST(Undetermined, AsksForMoreThanTheLargestOfNNormalDeviatesMayGive) {
     Uncertainty u(1);
     u.std_error = {0.1};
     find_undetermined(p, data, f, counted, false, u);
-    return Looked{2 * most / (2 * cost_at(0.3) / count), u.status[0]};
+    return Looked{2 * most / (2 * cost_at(0.3) / count), u[0].status};
   };
   const auto with = [&](double deviates) {
     double low = 1e-3, high = 300;  // of the spread
@@ -291,9 +291,9 @@ TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
     u.variance = {1e9, 1e9};
     find_undetermined(p, data, f, counted, widened, u);
     for (std::size_t i = 0; i < 2; ++i) {
-      EXPECT_EQ(u.status[i],
+      EXPECT_EQ(u[i].status,
                 widened ? ParameterStatus::unbounded : ParameterStatus::not_identifiable);
-      EXPECT_FALSE(u.reason[i].empty());
+      EXPECT_FALSE(u[i].reason.empty());
     }
   }
 }

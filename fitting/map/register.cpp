@@ -1,0 +1,324 @@
+#include "fitting/map/register.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "geometry/vector.h"
+
+namespace gonio {
+namespace {
+
+/// Puts a lane's frame, tangent, bitangent and normal.
+/// \return  the bitangent
+Direction put_frame(Column<float>& to, std::size_t lane, const Direction& x, const Direction& z) {
+  const Vector y = cross(vector_of(z), vector_of(x));
+  std::size_t k = 0;
+  for (const Vector& axis : {vector_of(x), y, vector_of(z)})
+    for (const double part : {axis.x, axis.y, axis.z})
+      to[k++ * padding + lane] = static_cast<float>(part);
+  return {y.x, y.y, y.z};
+}
+
+}  // namespace
+
+TexelRegister::TexelRegister(const TexelTask& task,
+                             const TexelSamples& in,
+                             const Kernels<float>& kernels,
+                             const LaneKernels& lanes,
+                             bool is_fused)
+    : task_(task),
+      in_(in),
+      kernels_(kernels),
+      lanes_(lanes),
+      signal_(padding),
+      same_angles_(in.shared && in.normal.empty() && !task.asked.refine_normals && !task.turns()),
+      is_shared_(same_angles_ && is_fused && task.asked.metric == Metric::l2_cosine) {
+  const std::size_t full = in.images * width_;
+  // Kernels take whole multiples of `padding`, with what follows masked.
+  const std::size_t room = (full + padding - 1) / padding * padding;
+  for (auto& c : angles_) c = Column<float>(room, 0.5F);
+  for (std::size_t c = 0; c < in.channels; ++c) {
+    target_[c] = Column<float>(room);
+    weight_[c] = Column<float>(room);
+  }
+  for (auto* c : {&light_, &view_}) *c = Column<float>(3 * room);
+  for (auto* c : {&cosine_, &slope_}) *c = Column<float>(room, 1);
+  for (auto* c : {&frame_, &base_}) *c = Column<float>(9 * padding);
+  turn_ = Column<float>(4 * padding);
+  usable_.resize(room);
+  read_shared();
+}
+
+/// Angles of directions that are the same for all texels, once.
+void TexelRegister::read_shared() {
+  if (!in_.shared) return;
+  for (std::size_t i = 0; i < in_.images; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      light_[k * in_.images + i] = in_.light[i * 3 + k];
+      view_[k * in_.images + i] = in_.view[i * 3 + k];
+    }
+  if (!same_angles_) return;
+  const std::vector<std::size_t> any(width_, 0);
+  put_frames(any);
+  make_angles();
+  for (auto& c : shared_angles_) c = Column<float>(in_.images + padding, 0.5F);
+  shared_weight_ = Column<float>(in_.images + padding);
+  for (std::size_t i = 0; i < in_.images; ++i) {
+    if (!usable_[i * width_]) continue;
+    for (std::size_t k = 0; k < shared_angles_.size(); ++k)
+      shared_angles_[k][shared_image_.size()] = angles_[k][i * width_];
+    shared_weight_[shared_image_.size()] = angles_[0][i * width_];
+    shared_image_.push_back(i);
+  }
+  if (!is_shared_) return;
+  for (std::size_t c = 0; c < in_.channels; ++c)
+    for (std::size_t i = 0; i < shared_image_.size(); ++i) {
+      rows_.push_back(shared_image_[i] * in_.channels + c);
+      row_weight_.push_back(shared_weight_[i]);
+    }
+  read_ = Column<float>(TexelRows::registers * (rows_.size() * width_ + padding));
+  read_signal_ = Column<float>(TexelRows::registers * padding);
+}
+
+/// Tangents, bitangents and normals.
+void TexelRegister::put_frames(std::span<const std::size_t> texels) {
+  for (std::size_t l = 0; l < width_; ++l) {
+    Direction z;
+    if (!in_.normal.empty()) {
+      const auto of = [&](std::size_t k) { return double{in_.normal[k * in_.texels + texels[l]]}; };
+      const double length = std::hypot(of(0), of(1), of(2));
+      z = {of(0) / length, of(1) / length, of(2) / length};  // no number: nothing is above it
+    }
+    // The map's x less its part along the normal; of a normal along x: −z, or z.
+    const double across = std::hypot(z.y, z.z);
+    const Direction x = across > 1e-6 ? Direction{across, -z.x * z.y / across, -z.x * z.z / across}
+                                      : Direction{0, 0, z.x > 0 ? -1.0 : 1.0};
+    put_frame(base_, l, x, z);
+  }
+  std::copy_n(base_.data(), 9 * padding, frame_.data());
+  for (std::size_t k = 0; k < 4; ++k)
+    std::fill_n(row(turn_, k), padding, k == 0 || k == 3 ? 1.0F : 0.0F);
+}
+
+/// Angles of all samples; those below the surface get harmless ones.
+void TexelRegister::make_angles() {
+  TexelDirections d{in_.images,   in_.shared, light_.data(), view_.data(), frame_.data(),
+                    turn_.data(), {}};
+  for (std::size_t k = 0; k < angles_.size(); ++k) d.angles[k] = angles_[k].data();
+  lanes_.angles(d);
+  const std::size_t full = in_.images * width_;
+  for (std::size_t i = 0; i < full; ++i) {
+    usable_[i] = angles_[0][i] > 0 && angles_[1][i] > 0 && std::isfinite(angles_[2][i]);
+    if (!usable_[i])
+      for (auto& c : angles_) c[i] = 0.5F;
+  }
+}
+
+/// The same angles of all, and no value masked: false where one is.
+bool TexelRegister::gather_shared(std::size_t first) {
+  const std::size_t samples = shared_image_.size(), rows = rows_.size(),
+                    at_once = TexelRows::registers * width_;
+  const std::size_t chunk = first / at_once * at_once, part = (first - chunk) / width_;
+  if (chunk + at_once > in_.texels || first % width_ != 0) return false;
+  if (chunk != chunk_) {
+    lanes_.read({in_.values.data(), in_.texels, chunk, rows_, row_weight_, read_.data(),
+                 read_signal_.data()});
+    chunk_ = chunk;
+  }
+  const float* const signal = read_signal_.data() + part * padding;
+  for (std::size_t l = 0; l < width_; ++l)
+    if (std::isnan(signal[l])) return false;
+  std::copy_n(signal, width_, signal_.data());
+  std::fill_n(count_.begin(), width_, static_cast<float>(samples * in_.channels));
+  samples_ = {};
+  samples_.shared = true;
+  samples_.x = {shared_angles_[0].data(), shared_angles_[1].data(), shared_angles_[2].data(),
+                shared_angles_[3].data(), shared_angles_[4].data(), samples * width_};
+  for (std::size_t c = 0; c < in_.channels; ++c) {
+    samples_.target[c] = read_.data() + (part * rows + c * samples) * width_;
+    samples_.weight[c] = shared_weight_.data();
+  }
+  return true;
+}
+
+void TexelRegister::gather_lanes(std::span<const std::size_t> texels) {
+  if (!in_.shared)
+    for (std::size_t i = 0; i < in_.images; ++i)
+      for (std::size_t k = 0; k < 3; ++k)
+        for (std::size_t l = 0; l < width_; ++l) {
+          const std::size_t from = (i * 3 + k) * in_.texels + texels[l],
+                            to = (k * in_.images + i) * width_ + l;
+          light_[to] = in_.light[from];
+          view_[to] = in_.view[from];
+        }
+  if (!same_angles_) {
+    put_frames(texels);
+    make_angles();
+  }
+  const std::size_t full = in_.images * width_, room = (full + padding - 1) / padding * padding;
+  if (task_.asked.refine_normals) std::copy_n(angles_[0].data(), room, cosine_.data());
+  std::fill_n(signal_.data(), padding, 0.0F);
+  count_.fill(0);
+  const bool l2 = task_.asked.metric == Metric::l2_cosine, log = task_.asked.metric == Metric::log;
+  const auto offset = static_cast<float>(task_.asked.offset);
+  // A 0 may be light from below the surface, which says no more than that: where normals are
+  // unknown it is left out.
+  const float least = task_.asked.refine_normals ? std::numeric_limits<float>::min() : 0;
+  for (std::size_t c = 0; c < in_.channels; ++c)
+    for (std::size_t i = 0; i < in_.images; ++i) {
+      const float* const from = in_.values.data() + (i * in_.channels + c) * in_.texels;
+      for (std::size_t l = 0; l < width_; ++l) {
+        const float y = from[texels[l]], sum = y + offset;
+        const std::size_t at = i * width_ + l;
+        const bool use =
+            usable_[at] && y >= least && y <= 1e18F && (l2 || sum > static_cast<float>(faintest));
+        const float w = use ? (l2 ? angles_[0][at] : 1 / sum) : 0;
+        target_[c][at] = use ? y : 0;
+        weight_[c][at] = w;
+        count_[l] += use ? 1.0F : 0.0F;
+        signal_[l] += log ? (use ? 1.0F : 0.0F) : w * target_[c][at] * (w * target_[c][at]);
+      }
+    }
+  samples_ = {};
+  samples_.x = {angles_[0].data(), angles_[1].data(), angles_[2].data(),
+                angles_[3].data(), angles_[4].data(), room};
+  for (std::size_t k = 0; k < 6; ++k) samples_.x.frame[k] = angles_[5 + k].data();
+  for (std::size_t c = 0; c < in_.channels; ++c) {
+    samples_.target[c] = target_[c].data();
+    samples_.weight[c] = weight_[c].data();
+  }
+  samples_.cosine = cosine_.data();
+}
+
+void TexelRegister::gather(std::span<const std::size_t> texels) {
+  const bool in_a_row = texels.back() - texels.front() + 1 == width_ &&
+                        std::ranges::is_sorted(texels, std::less_equal<>());
+  if (is_shared_ && in_a_row && gather_shared(texels.front())) return;
+  gather_lanes(texels);
+}
+
+void TexelRegister::in_logarithms() {
+  if (task_.asked.metric != Metric::log) return;
+  for (std::size_t c = 0; c < in_.channels; ++c) {
+    kernels_.link[static_cast<std::size_t>(Link::log)](samples_.x.n, target_[c].data(),
+                                                       static_cast<float>(task_.asked.offset),
+                                                       target_[c].data(), slope_.data());
+    for (std::size_t i = 0; i < samples_.x.n; ++i) {
+      const bool use = weight_[c][i] > 0;
+      weight_[c][i] = use ? 1.0F : 0.0F;
+      target_[c][i] = use ? target_[c][i] : 0;
+    }
+  }
+}
+
+void TexelRegister::turn(const float* deg) {
+  for (std::size_t l = 0; l < width_; ++l) {
+    const double t = double{deg[l]} * degree;
+    const auto c = static_cast<float>(std::cos(t)), s = static_cast<float>(std::sin(t));
+    turn_[0 * padding + l] = turn_[3 * padding + l] = c;
+    turn_[1 * padding + l] = s;
+    turn_[2 * padding + l] = -s;
+  }
+  make_angles();
+}
+
+void TexelRegister::tilt(const float* tilt) {
+  // n = m/|m|, m = n₀ + t x₀ + u y₀; what t and u do to n, a = (x₀ − n (n·x₀))/|m|, in the frame of
+  // n.
+  for (std::size_t l = 0; l < width_; ++l) {
+    const Direction x0 = axis(base_, 0, l), y0 = axis(base_, 1, l), z0 = axis(base_, 2, l);
+    const double t = double{tilt[l]}, u = double{tilt[padding + l]},
+                 length = std::sqrt(1 + t * t + u * u);
+    const Direction z{(z0.x + t * x0.x + u * y0.x) / length, (z0.y + t * x0.y + u * y0.y) / length,
+                      (z0.z + t * x0.z + u * y0.z) / length};
+    // x of the new frame: x₀ less its part along z.
+    const double along = dot(x0, z), across = std::sqrt(1 - along * along);
+    const Direction x{(x0.x - along * z.x) / across, (x0.y - along * z.y) / across,
+                      (x0.z - along * z.z) / across};
+    const Direction y = put_frame(frame_, l, x, z);
+    std::size_t k = 0;
+    for (const auto& by : {x0, y0})  // x and y are across z: its part drops out
+      for (const auto& a : {x, y})
+        turn_[k++ * padding + l] = static_cast<float>(dot(by, a) / length);
+  }
+  const auto above = usable_;
+  make_angles();
+  usable_ = above;  // as the given normals have it
+  // What a refined normal puts below the surface stays just above it.
+  constexpr float least = 1e-3F;
+  for (std::size_t i = 0; i < in_.images * width_; ++i)
+    for (std::size_t k = 0; k < 2; ++k) angles_[k][i] = std::max(angles_[k][i], least);
+}
+
+std::size_t TexelRegister::images_with_light(std::size_t lane) const {
+  std::size_t lit = 0;
+  for (std::size_t i = 0; i < in_.images; ++i)
+    lit += std::ranges::any_of(std::span(weight_).first(in_.channels),
+                               [&](const auto& w) { return w[i * width_ + lane] > 0; });
+  return lit;
+}
+
+Direction TexelRegister::axis(const Column<float>& frame, std::size_t k, std::size_t lane) const {
+  const auto of = [&](std::size_t j) { return double{frame[(3 * k + j) * padding + lane]}; };
+  return {of(0), of(1), of(2)};
+}
+
+Direction TexelRegister::light(std::size_t image, std::size_t lane) const {
+  const auto of = [&](std::size_t k) {
+    const std::size_t at = k * in_.images + image;
+    return double{light_[in_.shared ? at : at * width_ + lane]};
+  };
+  return {of(0), of(1), of(2)};
+}
+
+/// Normal times albedo of a matt surface that sends what was measured; 0 where the lights lie in a plane.
+Direction TexelRegister::matt_normal(std::size_t lane) const {
+  constexpr int rounds = 4;
+  Direction m{};
+  for (int round = 0; round < rounds; ++round) {
+    std::array<double, 6> h{};  // xx xy xz yy yz zz
+    std::array<double, 3> g{};
+    for (std::size_t i = 0; i < in_.images; ++i) {
+      const std::size_t at = i * width_ + lane;
+      const Direction l = light(i, lane);
+      for (std::size_t c = 0; c < in_.channels; ++c) {
+        if (!(weight_[c][at] > 0)) continue;
+        const double y = double{target_[c][at]} * double{cosine_[at]}, matt = dot(m, l);
+        const double w = round > 0 && y > matt ? square(std::max(matt, 0.0) / y) : 1;
+        h[0] += w * l.x * l.x, h[1] += w * l.x * l.y;
+        h[2] += w * l.x * l.z, h[3] += w * l.y * l.y;
+        h[4] += w * l.y * l.z, h[5] += w * l.z * l.z;
+        g[0] += w * y * l.x, g[1] += w * y * l.y, g[2] += w * y * l.z;
+      }
+    }
+    const std::array c{h[3] * h[5] - h[4] * h[4], h[2] * h[4] - h[1] * h[5],
+                       h[1] * h[4] - h[2] * h[3], h[0] * h[5] - h[2] * h[2],
+                       h[1] * h[2] - h[0] * h[4], h[0] * h[3] - h[1] * h[1]};
+    const double det = h[0] * c[0] + h[1] * c[1] + h[2] * c[2];
+    constexpr double flat = 1e-6;
+    if (!(det > flat * square(h[0] + h[3] + h[5]) * (h[0] + h[3] + h[5]))) return {};
+    m = {(c[0] * g[0] + c[1] * g[1] + c[2] * g[2]) / det,
+         (c[1] * g[0] + c[3] * g[1] + c[4] * g[2]) / det,
+         (c[2] * g[0] + c[4] * g[1] + c[5] * g[2]) / det};
+  }
+  return m;
+}
+
+void TexelRegister::find_tilt(std::span<const float> low,
+                              std::span<const float> high,
+                              float* to) const {
+  for (std::size_t l = 0; l < width_; ++l) {
+    const Direction m = matt_normal(l);
+    const double along = dot(m, axis(base_, 2, l)), length = std::sqrt(dot(m, m));
+    constexpr double steepest = 0.2;  // cosine
+    for (std::size_t k = 0; k < 2; ++k)
+      to[k * padding + l] =
+          along > steepest * length
+              ? std::clamp(static_cast<float>(dot(m, axis(base_, k, l)) / along), low[k], high[k])
+              : 0;
+  }
+}
+
+}  // namespace gonio

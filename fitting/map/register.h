@@ -1,0 +1,87 @@
+#pragma once
+/// \file
+/// Samples of the texels that a register of lanes holds, and their angles under the tangents and normals that a fit tries.
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "fitting/map/passes.h"
+#include "geometry/direction.h"
+
+namespace gonio {
+
+class TexelRegister {
+ public:
+  /// Looks into all of these, which outlive it.  \param is_fused  see TexelPasses
+  TexelRegister(const TexelTask&,
+                const TexelSamples&,
+                const Kernels<float>&,
+                const LaneKernels&,
+                bool is_fused);
+
+  /// Reads the samples of as many texels as there are lanes.  Targets of the log metric are values first: starts are found by relative
+  /// differences.
+  void gather(std::span<const std::size_t> texels);
+  /// Puts the logarithms of the log metric in their place.
+  void in_logarithms();
+
+  /// Turns the tangents.  \param deg  [padding]
+  void turn(const float* deg);
+  /// Tilts the normals by what is added to them along their tangents and bitangents.  \param tilt  [2][padding]
+  void tilt(const float* tilt);
+  /// The tilt at which matt surfaces would send the light that was measured, by least squares of ρ n·l, what is brighter
+  /// counting less: highlights are.  0 where the lights or the answer say nothing.
+  /// \param low, high  bounds of the two unknowns   \param to  [2][padding]
+  void find_tilt(std::span<const float> low, std::span<const float> high, float* to) const;
+
+  const LaneSamples& samples() const { return samples_; }
+  /// Σ (w target)², [padding]
+  float* signal() { return signal_.data(); }
+  /// Number of values that are compared.
+  float count(std::size_t lane) const { return count_[lane]; }
+  /// Number of images in which any channel is compared.
+  std::size_t images_with_light(std::size_t lane) const;
+  /// Component of the normal as tilted.
+  float normal(std::size_t k, std::size_t lane) const { return frame_[(6 + k) * padding + lane]; }
+
+ private:
+  void read_shared();
+  bool gather_shared(std::size_t first);
+  void gather_lanes(std::span<const std::size_t> texels);
+  void put_frames(std::span<const std::size_t> texels);
+  void make_angles();
+  Direction axis(const Column<float>& frame, std::size_t k, std::size_t lane) const;
+  Direction light(std::size_t image, std::size_t lane) const;
+  Direction matt_normal(std::size_t lane) const;
+
+  const TexelTask& task_;
+  const TexelSamples& in_;
+  const Kernels<float>& kernels_;
+  const LaneKernels& lanes_;
+  const std::size_t width_ = lanes_.lanes;
+
+  std::array<Column<float>, 11> angles_;
+  std::array<Column<float>, max_channels> target_, weight_;
+  Column<float> light_, view_, cosine_, slope_;
+  Column<float> frame_, base_;        ///< tangents, bitangents and normals: as tried, and as given
+  Column<float> turn_;                ///< see TexelDirections
+  std::vector<std::uint8_t> usable_;  ///< [sample][lane]: above the surface
+  LaneSamples samples_;
+  Column<float> signal_;
+  std::array<float, padding> count_{};
+
+  // Samples whose angles are the same for all texels.
+  bool same_angles_, is_shared_;
+  std::array<Column<float>, 5> shared_angles_;
+  Column<float> shared_weight_;
+  std::vector<std::size_t> shared_image_;  ///< [sample]: above the surface
+  std::vector<std::size_t> rows_;          ///< of the values that are read, channel by channel
+  std::vector<float> row_weight_;
+  Column<float> read_, read_signal_;                  ///< of the registers that are read at once
+  std::size_t chunk_ = static_cast<std::size_t>(-1);  ///< the first texel of those
+};
+
+}  // namespace gonio
