@@ -3,31 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "brdf/model/evaluate.h"
-#include "brdf/model/mean_block.h"
 #include "fitting/sample/incident_angles.h"
+#include "fitting/sample/model_blocks.h"
 
 namespace gonio {
-
-namespace {
-
-/// f of the samples, which are means where the block says so.
-void evaluate_at(Evaluator<double>& evaluate,
-                 const SampleBlock<double>& x,
-                 std::span<double* const> out) {
-  if (!x.mean) return evaluate(x, out);
-  for (double* f : out) std::fill_n(f, x.n, 0.0);
-  std::vector<Column<double>> of_angles;
-  std::vector<double*> to;
-  for (std::size_t c = 0; c < out.size(); ++c)
-    to.push_back(of_angles.emplace_back(Column<double>(BlockReader<double>::block)).data());
-  for_parts(x, BlockReader<double>::block, [&](const Block<double>& angles, const auto& add) {
-    evaluate(angles, to);
-    for (std::size_t c = 0; c < out.size(); ++c) add(to[c], out[c]);
-  });
-}
-
-}  // namespace
 
 double LogResiduals::rms() const {
   return std::sqrt(squares / values);
@@ -36,30 +15,22 @@ double LogResiduals::rms() const {
 ResidualsByAngle log_residuals(const Sampling& s, const BoundModel& model, std::size_t most) {
   const IncidentKeys keys(s);
   ResidualsByAngle all;
-  Evaluator<double> evaluate(model.model);
-  evaluate.set(model.values);
-  constexpr std::size_t block = BlockReader<double>::block;
-  std::vector<Column<double>> f;
-  std::vector<double*> out;
-  for (std::size_t c = 0; c < s.channels(); ++c)
-    out.push_back(f.emplace_back(Column<double>(block)).data());
+  ModelBlocks<double> look(s, model, std::vector<bool>(model.model.value_count));
   const std::size_t members = s.groups().widest();
-  const Tasks tasks(s, most, block);
+  const Tasks tasks(s, most, BlockReader<double>::block);
   for (std::size_t k = 0; k < tasks.count; ++k) {
     BlockReader<double> in(s, tasks.first(k), tasks.last(k), tasks.step);
     while (in.next()) {
-      evaluate_at(evaluate, in.angles(), out);
-      for (std::size_t m = 0; m < members; ++m)
-        for (std::size_t c = 0; c < s.channels(); ++c) {
+      look.run(in, [&](std::size_t c) {
+        for (std::size_t m = 0; m < members; ++m) {
           const auto& data = in.values(m, c);
           for (std::size_t i = 0; i < in.size(); ++i) {
             if (!(data.weight[i] > 0)) continue;
-            // As the fit's own link: a model that underflows is judged where it does, too.
-            const double shifted = std::max(out[c][i] + s.offset(), static_cast<double>(faintest));
-            const double r = std::log(shifted) - data.target[i], n = s.count_of(in.sample(m)[i]);
+            const double r = look.link()[i] - data.target[i], n = s.count_of(in.sample(m)[i]);
             all[keys(in.sample(m)[i], in.nol(m)[i])].add({n, n * r, n * r * r});
           }
         }
+      });
     }
   }
   return all;

@@ -7,8 +7,8 @@
 #include <optional>
 #include <utility>
 
-#include "brdf/model/derivatives.h"
 #include "fitting/sample/incident_angles.h"
+#include "fitting/sample/model_blocks.h"
 
 #include <tbb/enumerable_thread_specific.h>
 #include <tbb/parallel_for.h>
@@ -75,18 +75,15 @@ class Walk {
         keys_(keys),
         influences_(keys ? nullptr : influences),
         kernels_(kernels<F>()),
-        values_(b.values.begin(), b.values.end()),
-        derivatives_(b.model, free.mask(), kernels_, nullptr, s.aperture() != nullptr) {
-    derivatives_.set(values_);
-    for (auto* x : {&link_, &link_slope_, &log_f_, &log_y_, &unused_, &score_, &slope_})
-      *x = derivatives_.fresh();
+        model_(s, b, free.mask()) {
+    for (auto* x : {&log_f_, &log_y_, &unused_, &score_, &slope_}) *x = model_.fresh();
     for (std::size_t m = 0; m < s.groups().widest(); ++m)
       for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
         *sums = Column<F>::for_overwrite(size);
     std::size_t most_rows = 0;
     for (std::size_t c = 0; c < s.channels(); ++c) {
       auto& x = channel_.emplace_back();
-      for (const auto& [slot, column] : derivatives_.channel(c).d) {
+      for (const auto& [slot, column] : model_.channel(c).d) {
         x.j[x.free.size()] = column;
         x.free.push_back(free.index(slot));
       }
@@ -170,18 +167,15 @@ class Walk {
       for (auto* sums : {&values_seen_[m], &positive_[m], &squares_[m], &log_squares_[m]})
         std::fill_n(sums->data(), x.n, F(0));
     // With ln f − ln y for the metric there is no need to compute the logarithms twice.
-    const auto offset = static_cast<F>(sampling_.link_offset());
-    const bool logs = link_of(sampling_.metric()) == Link::log && offset == 0;
+    const bool logs = link_of(sampling_.metric()) == Link::log && sampling_.link_offset() == 0;
     const auto& log = kernels_.link[static_cast<std::size_t>(Link::log)];
-    derivatives_.run(x, [&](std::size_t c) {
-      const F* const f = derivatives_.channel(c).value;
-      kernels_.link[static_cast<std::size_t>(link_of(sampling_.metric()))](x.n, f, offset, link_,
-                                                                           link_slope_);
+    model_.run(in, [&](std::size_t c) {
+      const F *const f = model_.channel(c).value, *const link = model_.link();
       if (!logs) log(x.n, f, F(0), log_f_, unused_);
-      const F* const log_f = logs ? link_ : log_f_;
+      const F* const log_f = logs ? link : log_f_;
       for (std::size_t m = 0; m < members; ++m) {
         const auto& v = in.values(m, c);
-        kernels_.influence(x.n, {link_, link_slope_, v.target.data(), v.weight.data(), huber_,
+        kernels_.influence(x.n, {link, model_.slope(), v.target.data(), v.weight.data(), huber_,
                                  score_, slope_, cost_.data()});
         sandwich(in, c, m);
         if (!logs) log(x.n, v.y.data(), F(0), log_y_, unused_);
@@ -361,9 +355,8 @@ class Walk {
   Column<F> fourth_, moves_;  ///< lane sums of each row
   std::array<Column<F>, Groups::most> per_root_;
   const Kernels<F>& kernels_;
-  std::vector<F> values_;
-  ModelDerivatives<F> derivatives_;
-  F *link_, *link_slope_, *log_f_, *log_y_, *unused_, *score_, *slope_;
+  ModelBlocks<F> model_;
+  F *log_f_, *log_y_, *unused_, *score_, *slope_;
   std::vector<Channel> channel_;
   std::vector<std::pair<std::size_t, std::size_t>>
       mirrored_;  ///< entries, and those across the diagonal

@@ -7,8 +7,8 @@
 #include <utility>
 
 #include "base/quantile.h"
-#include "brdf/model/derivatives.h"
 #include "fitting/sample/incident_angles.h"
+#include "fitting/sample/model_blocks.h"
 #include "table/health/rounding.h"
 
 namespace gonio::misfit {
@@ -128,10 +128,8 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
   const std::size_t stride = (s.channels() + most_channels - 1) / most_channels;
   const std::size_t looked_at = (s.channels() + stride - 1) / stride;
   Left all;
-  ModelDerivatives<double> model(f.model.model, p.free.mask(), kernels<double>(), nullptr,
-                                 s.aperture() != nullptr);
-  model.set(f.model.values);
-  double *const link = model.fresh(), *const slope = model.fresh();
+  ModelBlocks<double> model(s, f.model, p.free.mask());
+  const double *const link = model.link(), *const slope = model.slope();
 
   std::vector<std::vector<const double*>> derivatives;
   std::map<std::size_t, std::size_t> numbers;  // of the unknowns met
@@ -159,11 +157,9 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
     while (in.next()) {
       const auto x = in.angles();
       unit_of.assign(members * in.size(), no_unit);
-      model.run(x, [&](std::size_t c) {
+      model.run(in, [&](std::size_t c) {
         if (c % stride != 0) return;
         const double* const value = model.channel(c).value;
-        kernels<double>().link[static_cast<std::size_t>(link_of(s.metric()))](x.n, value, offset,
-                                                                              link, slope);
         for (std::size_t m = 0; m < members; ++m) {
           const auto& data = in.values(m, c);
           for (std::size_t i = 0; i < in.size(); ++i) {

@@ -8,13 +8,13 @@
 #include <utility>
 
 #include "base/error.h"
-#include "brdf/model/derivatives.h"
 #include "fitting/fit.h"
 #include "fitting/judge/assess.h"
 #include "fitting/judge/describe.h"
 #include "fitting/judge/warnings.h"
 #include "fitting/plan/candidates.h"
 #include "fitting/plan/forecast.h"
+#include "fitting/sample/model_blocks.h"
 #include "fitting/solve/matrix.h"
 #include "fitting/solve/problem.h"
 #include "integrate/aperture/mean_values.h"
@@ -90,22 +90,15 @@ std::vector<SampleRows> rows_of(const Sampling& s,
                                 double noise) {
   std::vector<Index> column(p.free.size(), -1);
   for (std::size_t k = 0; k < unknowns.size(); ++k) column[unknowns[k].free] = index(k);
-  ModelDerivatives<double> derivatives(model.model, p.free.mask(), kernels<double>(), nullptr,
-                                       s.aperture() != nullptr);
-  derivatives.set(model.values);
-  double *const link = derivatives.fresh(), *const slope = derivatives.fresh();
-  const auto& link_kernel = kernels<double>().link[static_cast<std::size_t>(link_of(s.metric()))];
+  ModelBlocks<double> look(s, model, p.free.mask());
   std::vector<SampleRows> all;
   BlockReader<double> in(s, 0, s.groups().size());
   while (in.next()) {
-    const auto x = in.angles();
     const std::size_t first = all.size();
     all.resize(first + in.size(), SampleRows::Zero(index(s.channels()), index(unknowns.size())));
-    derivatives.run(x, [&](std::size_t c) {
-      const auto& f = derivatives.channel(c);
-      link_kernel(x.n, f.value, s.link_offset(), link, slope);
-      const double* const weight = in.values(0, c).weight.data();
-      for (const auto& [slot, by] : f.d) {
+    look.run(in, [&](std::size_t c) {
+      const double *const weight = in.values(0, c).weight.data(), *const slope = look.slope();
+      for (const auto& [slot, by] : look.channel(c).d) {
         const Index k = column[p.free.index(slot)];
         if (k < 0) continue;
         const double scale = unknowns[static_cast<std::size_t>(k)].scale / noise;
