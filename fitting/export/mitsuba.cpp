@@ -136,7 +136,7 @@ std::vector<TargetForm> mitsuba_forms(const Surface& s) {
                v[2] * share_of_band(2, nm);
       }));
       x.values.assign(rgb.begin(), rgb.end());
-      for (double& v : x.values) v = std::max(v, 0.0);  // bands cut at 0 may leave less
+      for (double& part : x.values) part = std::max(part, 0.0);  // bands cut at 0 may leave less
     }
     return evaluated(now, angles);
   });

@@ -28,7 +28,7 @@ void describe(FitDocument& d,
       std::string reason;
       auto status = ParameterStatus::fixed;
       if (p.free.mask()[s]) {
-        const Verdict& v = u[p.free.index(s)];
+        const ParameterVerdict& v = u[p.free.index(s)];
         status = v.status;
         error = v.std_error;
         low = v.low_end(value);

@@ -291,8 +291,8 @@ LackOfFit lack_of_fit(
   }
   if (!m.told) {
     found.gains = gains_of(left, p, tests);
-    // A wrong model's residuals may look like a factor per incident angle, but not like one per other
-    // angle: so few incident angles cannot tell the two apart.
+    // A wrong model's residuals may look like a factor per incident angle, but not like one per
+    // other angle: so few incident angles cannot tell the two apart.
     const bool few_angles =
         std::ranges::any_of(tests.scaled,
                             [&](const auto& s) {

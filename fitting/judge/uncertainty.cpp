@@ -341,11 +341,11 @@ Uncertainty uncertainty(const Sandwich& s,
   return u;
 }
 
-void Verdict::forget(std::string why) {
+void ParameterVerdict::forget(std::string why) {
   keep_limit(ParameterStatus::not_identifiable, not_known, std::move(why));
 }
 
-void Verdict::keep_limit(ParameterStatus side, double bound, std::string why) {
+void ParameterVerdict::keep_limit(ParameterStatus side, double bound, std::string why) {
   status = side;
   std_error = low = high = not_known;
   limit = bound;

@@ -39,7 +39,7 @@ Determined find_determined(const ArrowMatrix& bread,
 /// 4. keep_to_what_is_seen(): so does what the table cannot show of any model;
 /// 5. bootstrap(), where asked: ends of the intervals that are left.
 /// A texel of a map stops after the first: its status is of find_determined() and of fills().
-struct Verdict {
+struct ParameterVerdict {
   ParameterStatus status = ParameterStatus::free;
   double std_error = not_known;
   double t = not_known;  ///< half width of the 95 % interval in standard errors
@@ -65,9 +65,9 @@ inline bool fills(double half_width, double range) {
 
 /// Verdicts of all unknowns, by the number of the free slot.
 struct Uncertainty {
-  std::vector<Verdict> verdicts;
-  Verdict& operator[](std::size_t i) { return verdicts[i]; }
-  const Verdict& operator[](std::size_t i) const { return verdicts[i]; }
+  std::vector<ParameterVerdict> verdicts;
+  ParameterVerdict& operator[](std::size_t i) { return verdicts[i]; }
+  const ParameterVerdict& operator[](std::size_t i) const { return verdicts[i]; }
   std::vector<double> std_errors() const;
   /// Correlations of some of the unknowns, NaN for what has no error.  Of many unknowns they are those that all channels share and
   /// those of one channel, in which two are hardest to tell apart: others take place with the square of the channels.

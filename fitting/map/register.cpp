@@ -99,7 +99,7 @@ void TexelRegister::put_frames(std::span<const std::size_t> texels) {
   }
   std::copy_n(base_.data(), 9 * padding, frame_.data());
   for (std::size_t k = 0; k < 4; ++k)
-    std::fill_n(row(turn_, k), padding, k == 0 || k == 3 ? 1.0F : 0.0F);
+    std::fill_n(turn_.data() + k * padding, padding, k == 0 || k == 3 ? 1.0F : 0.0F);
 }
 
 /// Angles of all samples; those below the surface get harmless ones.

@@ -188,7 +188,9 @@ TEST(Uncertainty, KnowsNoErrorOfWhatOneClusterAloneDetermines) {
 TEST(Uncertainty, IsTheWiderOfTwo) {
   Uncertainty a(3);
   Uncertainty b(3);
-  const auto put = [](Verdict& v, double error, double t) { v.std_error = error, v.t = t; };
+  const auto put = [](ParameterVerdict& v, double error, double t) {
+    v.std_error = error, v.t = t;
+  };
   put(a[0], 1, 2), put(a[1], 1, 4), put(a[2], 1, 2);
   put(b[0], 3, 2), put(b[1], 1.5, 2), put(b[2], std::nan(""), 2);
   const auto w = wider(a, b);
