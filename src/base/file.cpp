@@ -8,11 +8,13 @@
 #include <csignal>
 #include <cstring>
 #include <ctime>
+#include <deque>
 #include <filesystem>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <thread>
 #include <utility>
 
 #include "base/earlier_file.h"
@@ -418,6 +420,10 @@ void OutputFile::close() {
   if (!synced || !closed) fail("writing");
 }
 
+std::string OutputFile::folder() const {
+  return folder_of(target_).string();
+}
+
 void OutputFile::commit() {
   close();
   if (std::rename(temporary_.c_str(), target_.c_str()) != 0) fail("renaming");
@@ -454,9 +460,42 @@ FolderLock::~FolderLock() {
   ::close(folder_);
 }
 
+namespace {
+
+/// Turn of one run to rename files in a folder.
+class Turn {
+ public:
+  explicit Turn(const std::string& folder)
+      : folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
+    using namespace std::chrono_literals;
+    for (auto waited = 0ms; waited < 2s && ::flock(folder_, LOCK_EX | LOCK_NB) != 0 &&
+                            (errno == EWOULDBLOCK || errno == EINTR);
+         waited += 5ms)
+      std::this_thread::sleep_for(5ms);
+  }
+  ~Turn() {
+    if (folder_ >= 0) ::close(folder_);
+  }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  int folder_;
+};
+
+}  // namespace
+
 void commit_all(std::span<OutputFile* const> files) {
+  // Each folder once, by its numbers, and in one order for all runs: none waits for one that waits.
+  std::map<std::pair<dev_t, ino_t>, std::string> folders;
   for (auto* f : files)
-    if (f) f->close();
+    if (f) {
+      f->close();
+      if (struct stat s{}; ::stat(f->folder().c_str(), &s) == 0)
+        folders.emplace(std::pair{s.st_dev, s.st_ino}, f->folder());
+    }
+  std::deque<Turn> turns;
+  for (const auto& [numbers, folder] : folders) turns.emplace_back(folder);
   for (auto* f : files)
     if (f) f->commit();
 }

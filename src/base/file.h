@@ -97,6 +97,8 @@ class OutputFile {
   OutputFile& operator=(const OutputFile&) = delete;
 
   const std::string& path() const { return path_; }
+  /// Folder that it appears in, behind its links.
+  std::string folder() const;
   /// For libraries that write by name.
   const std::string& temporary_path() const { return temporary_; }
   void write(std::string_view bytes);
@@ -135,7 +137,8 @@ class FolderLock {
 /// nohup does, stays so.
 void remove_unfinished_files_on_signals();
 
-/// All are whole before the first takes its name.
+/// All are whole before the first takes its name, and no other run's take theirs in between: of two runs with the same outputs all are
+/// of the later.  (Where a folder cannot be locked within two seconds, they go on without.)
 /// \param files  nullptr: none
 void commit_all(std::span<OutputFile* const> files);
 

@@ -1,6 +1,7 @@
 #include "base/file.h"
 
 #include <algorithm>
+#include <array>
 #include <chrono>
 #include <csignal>
 #include <cstdlib>
@@ -20,7 +21,8 @@
 #include <unistd.h>
 
 namespace {
-std::string order;  ///< of what was synced and renamed: (d)ata, (r)enamed, (f)older
+std::string order;    ///< of what was synced and renamed: (d)ata, (r)enamed, (f)older
+unsigned slowly = 0;  ///< microseconds that a renaming takes
 }
 
 // In place of the library's, as the room calls them: to see their order.
@@ -35,6 +37,7 @@ extern "C" int fsync(int file) {
 }
 extern "C" int rename(const char* from, const char* to) noexcept {
   order += 'r';
+  ::usleep(slowly);
   return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
 
@@ -411,6 +414,24 @@ TEST(PathBeside, LiesBelowTheDocumentsFolder) {
        {std::string("../outside"), std::string("b/../../outside"), std::string("link"),
         folder / "outside", std::string("/etc/passwd"), std::string("missing/../../x")})
     EXPECT_HAS(refused(name), "--follow-paths");
+}
+
+TEST(CommitAll, LeavesTheFilesOfOneRunWhereTwoWriteTheSameNames) {
+  const Folder folder;
+  const auto run = [&](const char* content) {
+    const pid_t child = ::fork();
+    if (child != 0) return child;
+    slowly = 20'000;
+    OutputFile table(folder / "table"), beside(folder / "beside");
+    table.write(content);
+    beside.write(content);
+    commit_all(std::array{&table, &beside});
+    ::_exit(0);
+  };
+  for (int round = 0; round < 8; ++round) {
+    for (const pid_t child : {run("one"), run("other")}) ::waitpid(child, nullptr, 0);
+    EXPECT_EQ(test::read_bytes(folder / "table"), test::read_bytes(folder / "beside"));
+  }
 }
 
 TEST(FolderLock, IsOfOneAtATime) {
