@@ -81,6 +81,48 @@ void expect_apart(const Batch& b, const std::vector<std::string>& results) {
   }
 }
 
+/// True of a file that begins like those that gonio writes.
+bool begins_with(const std::string& path, std::string_view what, std::size_t within) {
+  may_replace(path);
+  try {
+    return InputFile(path).peek(within).find(what) != std::string::npos;
+  } catch (const Error&) {
+    return false;
+  }
+}
+bool is_page(const std::string& path) {
+  return begins_with(path, R"(<meta name="generator" content="gonio">)", 1024);
+}
+
+/// Refuses to replace files of somebody else: what no batch made, nor an earlier one in this folder was to make.
+/// \param documents, results  names in the folder: of tables' documents, and of all files
+void expect_own(const std::string& folder,
+                const std::vector<std::string>& documents,
+                const std::vector<std::string>& results) {
+  std::unordered_set<std::string> own;
+  if (const auto earlier = read_list(folder)) {
+    own = {"summary.csv", "summary.html", "summary.page.json"};
+    for (auto& name : document_names(earlier->tables)) {
+      own.insert(page_name(name));
+      own.insert(std::move(name));
+    }
+  }
+  const std::unordered_set<std::string> of_tables(documents.begin(), documents.end());
+  std::error_code none;
+  for (const auto& name : results) {
+    const std::string path = (fs::path(folder) / name).string();
+    if (own.contains(name) || !fs::is_regular_file(path, none)) continue;
+    const bool made_by_gonio = of_tables.contains(name)  ? is_batch_document(path)
+                               : name.ends_with(".html") ? is_page(path)
+                               : name.ends_with(".csv")
+                                   ? begins_with(path, "path,document,status", 32)
+                                   : begins_with(path, "\"gonio.", 1024);
+    if (!made_by_gonio)
+      throw bad_input(path, "writing", "a file that no batch made",
+                      "another folder for results, or that file elsewhere");
+  }
+}
+
 // --- How many at a time ---
 
 /// Work that goes on behind a lane's next table, one piece at a time, on a thread of its own: it waits for the disk.
@@ -156,15 +198,7 @@ std::optional<BatchRow> kept(const std::string& table, const Place& to, const st
 
 /// True where a batch made the page that lies beside its document.
 bool is_own_page(const std::string& page, const std::string& document) {
-  if (!is_page_of(page, document)) return false;
-  may_replace(page);
-  try {
-    constexpr std::size_t head = 1024;
-    return InputFile(page).peek(head).find(R"(<meta name="generator" content="gonio">)") !=
-           std::string::npos;
-  } catch (const Error&) {
-    return false;
-  }
+  return is_page_of(page, document) && is_page(page);
 }
 
 /// Why there is no fit; its document takes the place of that of what the table was before.
@@ -288,6 +322,7 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
   results.insert(results.end(), all_names.begin(), all_names.end());
   if (hooks.table_page) std::ranges::transform(all_names, std::back_inserter(results), page_name);
   expect_apart(b, results);
+  expect_own(b.output, all_names, results);
   const auto place = [&](const std::string& name) { return (fs::path(b.output) / name).string(); };
   const BatchList list{made, all};
   try {

@@ -199,6 +199,7 @@ void write_list(const std::string& folder, const BatchList& list) {
 
 std::optional<BatchList> read_list(const std::string& folder) {
   const std::string path = place(folder, list_name);
+  may_replace(path);
   try {
     BatchList list;
     read_record(JsonDocument(path).root(), list);

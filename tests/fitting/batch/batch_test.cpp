@@ -267,6 +267,30 @@ TEST(Batch, TakesNoPageAwayThatIsAnInputOrSomebodyElses) {
   EXPECT_TRUE(fs::exists(f / "out/broken.fit.html")) << "an input";
 }
 
+TEST(Batch, ReplacesNoFileThatNoBatchMade) {
+  const test::Folder f;
+  f.write("a.csv", "theta_i");
+  const BatchHooks hooks{{}, {}, [](const FittedFile&) { return std::string("page"); }};
+  for (const char* name :
+       {"a.json", "a.fit.html", "summary.csv", "summary.html", "summary.page.json"}) {
+    fs::remove_all(f / "out");
+    fs::create_directories(f / "out");
+    const std::string mine = f / (std::string("out/") + name);
+    f.write(std::string("out/") + name, R"({"mine": true})");
+    EXPECT_HAS(test::refusal([&] {
+                 fit_batch({{f / "a.csv"}, f / "out", {}}, hooks);
+               }),
+               "a file that no batch made");
+    EXPECT_EQ(test::read_bytes(mine), R"({"mine": true})") << name;
+    EXPECT_FALSE(fs::exists(f / "out/summary.list.json")) << "said before it begins";
+  }
+  fs::remove_all(f / "out");
+  fit_batch({{f / "a.csv"}, f / "out", {}}, hooks);
+  f.write("out/a.json", "half a document");  // that an earlier batch was to make
+  fit_batch({{f / "a.csv"}, f / "out", {}}, hooks);
+  EXPECT_NE(test::read_bytes(f / "out/a.json"), "half a document");
+}
+
 TEST(Batch, WritesThroughNoLink) {
   const test::Folder f;
   f.write("a.csv", "theta_i");
