@@ -112,10 +112,10 @@ TEST(FitPage, SaysInItsHeadingThatAModelDoesNotFit) {
   FitDocument d;
   d.model = "lambert";
   d.input_path = "a.csv";
-  EXPECT_NE(html_of(d).find("<h1>lambert fitted to a.csv</h1>"), std::string::npos);
+  EXPECT_NE(html_of(d).find("<h1>Lambert fitted to a.csv</h1>"), std::string::npos);
   d.misfit.told = true;
   const auto html = html_of(d);
-  EXPECT_NE(html.find("<h1>lambert does not fit a.csv</h1>"), html.npos);
+  EXPECT_NE(html.find("<h1>Lambert does not fit a.csv</h1>"), html.npos);
   EXPECT_EQ(html.find("fitted to"), html.npos);
   EXPECT_EQ(html.find("reproduces"), html.npos);
 }
