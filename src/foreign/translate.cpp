@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "foreign/glsl_functions.h"
 #include "foreign/spirv_words.h"
 
 namespace gonio::foreign {
@@ -17,8 +18,6 @@ namespace {
 constexpr int most_turns = 4096, deepest_calls = 64, deepest_logic = 64;
 constexpr std::size_t most_variables = 100'000, most_steps = 4'000'000, most_looks = 4000;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
-
-using Parts = std::vector<Ref>;
 
 /// A variable's scalars: what all lanes hold, and what was stored last, which the lanes of `where` see without a select.
 struct Variable {
@@ -429,35 +428,6 @@ class Translator {
   // ---- arithmetic
   // ----------------------------------------------------------------------------------
 
-  Ref num(double v) { return p.constant(v); }
-  /// Whole exponents from 2 to 16 as products: closer, and what a compiler makes of them.
-  Ref power(Ref x, Ref y) {
-    if (y >= 0 && p[y].op == Op::constant)
-      if (const double n = p[y].value; n >= 1 && n <= 16 && n == std::floor(n)) {
-        Ref r = nothing, q = x;
-        for (int k = static_cast<int>(n); k; k >>= 1) {
-          if (k & 1) r = r < 0 ? q : p(Op::mul, r, q);
-          if (k > 1) q = p(Op::mul, q, q);
-        }
-        return r;
-      }
-    return p(Op::pow, x, y);
-  }
-  Ref clamp(Ref x, Ref low, Ref high) { return p(Op::min, p(Op::max, x, low), high); }
-  Ref dot(const Parts& a,
-          const Parts& b,
-          std::size_t from_a,
-          std::size_t from_b,
-          std::size_t n,
-          std::size_t step_a = 1) {
-    Ref s = p(Op::mul, a.at(from_a), b.at(from_b));
-    for (std::size_t k = 1; k < n; ++k)
-      s = p(Op::add, s, p(Op::mul, a.at(from_a + k * step_a), b.at(from_b + k)));
-    return s;
-  }
-  Ref dot(const Parts& a, const Parts& b) { return dot(a, b, 0, 0, a.size()); }
-  Ref length(const Parts& a) { return p(Op::sqrt, dot(a, a)); }
-
   std::optional<Value> declared(const Frame& fr,
                                 const SpirvFunction& f,
                                 const std::vector<Value>& arguments,
@@ -477,7 +447,7 @@ class Translator {
       const Ref x = argument(0);
       return value(p(Op::div, p(Op::sin, x), p(Op::cos, x)));
     }
-    if (n == "gonio_pow") return value(power(argument(0), argument(1)));
+    if (n == "gonio_pow") return value(power(p, argument(0), argument(1)));
     return {};
   }
 
@@ -524,18 +494,19 @@ class Translator {
         return each([&](Ref a) { return p(Op::mul, a, s); });
       }
       case spv::OpDot:
-        r.parts = {dot(Parts(at(0)), Parts(at(1)))};
+        r.parts = {dot(p, Parts(at(0)), Parts(at(1)))};
         return r;
       case spv::OpMatrixTimesVector: {
         const Parts a = at(0), v = at(1);
         const std::size_t rows = m.size(i.type);
-        for (std::size_t k = 0; k < rows; ++k) r.parts.push_back(dot(a, v, k, 0, v.size(), rows));
+        for (std::size_t k = 0; k < rows; ++k)
+          r.parts.push_back(dot(p, a, v, k, 0, v.size(), rows));
         return r;
       }
       case spv::OpVectorTimesMatrix: {
         const Parts v = at(0), a = at(1);
         for (std::size_t k = 0; k < m.size(i.type); ++k)
-          r.parts.push_back(dot(v, a, 0, k * v.size(), v.size()));
+          r.parts.push_back(dot(p, v, a, 0, k * v.size(), v.size()));
         return r;
       }
       case spv::OpMatrixTimesMatrix: {
@@ -543,7 +514,7 @@ class Translator {
         const std::size_t rows = m.size(m.type(i.type).element), inner = a.size() / rows;
         for (std::size_t c = 0; c < m.type(i.type).count; ++c)
           for (std::size_t k = 0; k < rows; ++k)
-            r.parts.push_back(dot(a, b, k, c * inner, inner, rows));
+            r.parts.push_back(dot(p, a, b, k, c * inner, inner, rows));
         return r;
       }
       case spv::OpTranspose: {
@@ -575,7 +546,8 @@ class Translator {
         return each([&](Ref a) { return p(Op::inverse, p(Op::equal, a, a)); });
       case spv::OpIsInf:
         return each([&](Ref a) {
-          return p(Op::either, p(Op::equal, a, num(INFINITY)), p(Op::equal, a, num(-INFINITY)));
+          return p(Op::either, p(Op::equal, a, p.constant(INFINITY)),
+                   p(Op::equal, a, p.constant(-INFINITY)));
         });
       case spv::OpLogicalAnd:
         return by(Op::both);
@@ -636,7 +608,7 @@ class Translator {
         return r;
       case spv::OpConvertSToF:
       case spv::OpConvertUToF:
-        return each([&](Ref a) { return num(whole(a)); });
+        return each([&](Ref a) { return p.constant(whole(a)); });
       case spv::OpConvertFToS:
       case spv::OpConvertFToU:
       case spv::OpBitcast:
@@ -693,124 +665,7 @@ class Translator {
     if (!m.is_glsl450(i.in[0])) p.refuse("functions of another set than GLSL.std.450");
     std::vector<Parts> arguments;
     for (std::size_t k = 2; k < i.in.size(); ++k) arguments.push_back(parts(fr, i.in[k]));
-    const auto at = [&](std::size_t n, std::size_t k) { return arguments.at(n).at(k); };
-    Value r{i.type};
-    const auto each = [&](auto f) {
-      for (std::size_t k = 0; k < arguments.at(0).size(); ++k) r.parts.push_back(f(k));
-      return r;
-    };
-    const auto one = [&](Op op) { return each([&](std::size_t k) { return p(op, at(0, k)); }); };
-    const auto two = [&](Op op) {
-      return each([&](std::size_t k) { return p(op, at(0, k), at(1, k)); });
-    };
-    const auto scaled = [&](double s) {
-      return each([&](std::size_t k) { return p(Op::mul, at(0, k), num(s)); });
-    };
-    switch (i.in[1]) {
-      case GLSLstd450FAbs:
-        return each([&](std::size_t k) { return p(Op::max, at(0, k), p(Op::neg, at(0, k))); });
-      case GLSLstd450FSign:
-        return each([&](std::size_t k) {
-          const Ref x = at(0, k), zero = num(0);
-          return p(Op::select, p(Op::less, zero, x), num(1),
-                   p(Op::select, p(Op::less, x, zero), num(-1), zero));
-        });
-      case GLSLstd450Floor:
-        return one(Op::floor);
-      case GLSLstd450Ceil:
-        return each([&](std::size_t k) { return p(Op::neg, p(Op::floor, p(Op::neg, at(0, k)))); });
-      case GLSLstd450Fract:
-        return each([&](std::size_t k) { return p(Op::sub, at(0, k), p(Op::floor, at(0, k))); });
-      case GLSLstd450Round:
-      case GLSLstd450RoundEven:
-        return each([&](std::size_t k) { return p(Op::floor, p(Op::add, at(0, k), num(0.5))); });
-      case GLSLstd450Radians:
-        return scaled(std::numbers::pi / 180);
-      case GLSLstd450Degrees:
-        return scaled(180 / std::numbers::pi);
-      case GLSLstd450Sin:
-        return one(Op::sin);
-      case GLSLstd450Cos:
-        return one(Op::cos);
-      case GLSLstd450Tan:
-        return each(
-            [&](std::size_t k) { return p(Op::div, p(Op::sin, at(0, k)), p(Op::cos, at(0, k))); });
-      case GLSLstd450Asin:
-        return one(Op::asin);
-      case GLSLstd450Acos:
-        return one(Op::acos);
-      case GLSLstd450Atan:
-        return one(Op::atan);
-      case GLSLstd450Atan2:
-        return two(Op::atan2);
-      case GLSLstd450Pow:
-        return each([&](std::size_t k) { return power(at(0, k), at(1, k)); });
-      case GLSLstd450Exp:
-        return one(Op::exp);
-      case GLSLstd450Log:
-        return one(Op::log);
-      case GLSLstd450Exp2:
-        return one(Op::exp2);
-      case GLSLstd450Log2:
-        return one(Op::log2);
-      case GLSLstd450Sqrt:
-        return one(Op::sqrt);
-      case GLSLstd450InverseSqrt:
-        return each([&](std::size_t k) { return p(Op::div, num(1), p(Op::sqrt, at(0, k))); });
-      case GLSLstd450FMin:
-      case GLSLstd450NMin:
-        return two(Op::min);
-      case GLSLstd450FMax:
-      case GLSLstd450NMax:
-        return two(Op::max);
-      case GLSLstd450FClamp:
-      case GLSLstd450NClamp:
-        return each([&](std::size_t k) { return clamp(at(0, k), at(1, k), at(2, k)); });
-      case GLSLstd450FMix:  // x (1 − a) + y a
-        return each([&](std::size_t k) {
-          return p(Op::add, p(Op::mul, at(0, k), p(Op::sub, num(1), at(2, k))),
-                   p(Op::mul, at(1, k), at(2, k)));
-        });
-      case GLSLstd450Step:
-        return each([&](std::size_t k) {
-          return p(Op::select, p(Op::less, at(1, k), at(0, k)), num(0), num(1));
-        });
-      case GLSLstd450SmoothStep:
-        return each([&](std::size_t k) {
-          const Ref a = at(0, k);
-          const Ref t =
-              clamp(p(Op::div, p(Op::sub, at(2, k), a), p(Op::sub, at(1, k), a)), num(0), num(1));
-          return p(Op::mul, p(Op::mul, t, t), p(Op::sub, num(3), p(Op::mul, num(2), t)));
-        });
-      case GLSLstd450Fma:
-        return each(
-            [&](std::size_t k) { return p(Op::add, p(Op::mul, at(0, k), at(1, k)), at(2, k)); });
-      case GLSLstd450Length:
-        r.parts = {length(arguments.at(0))};
-        return r;
-      case GLSLstd450Distance: {
-        Parts d;
-        for (std::size_t k = 0; k < arguments.at(0).size(); ++k)
-          d.push_back(p(Op::sub, at(0, k), at(1, k)));
-        r.parts = {length(d)};
-        return r;
-      }
-      case GLSLstd450Normalize: {
-        const Ref l = length(arguments.at(0));
-        return each([&](std::size_t k) { return p(Op::div, at(0, k), l); });
-      }
-      case GLSLstd450Cross:
-        return each([&](std::size_t k) {
-          const std::size_t j = (k + 1) % 3, l = (k + 2) % 3;
-          return p(Op::sub, p(Op::mul, at(0, j), at(1, l)), p(Op::mul, at(1, j), at(0, l)));
-        });
-      case GLSLstd450Reflect: {
-        const Ref d = p(Op::mul, num(2), dot(arguments.at(1), arguments.at(0)));
-        return each([&](std::size_t k) { return p(Op::sub, at(0, k), p(Op::mul, d, at(1, k))); });
-      }
-      default:
-        p.refuse("function " + std::to_string(i.in[1]) + " of GLSL.std.450");
-    }
+    return {i.type, glsl_function(p, i.in[1], arguments)};
   }
 };
 

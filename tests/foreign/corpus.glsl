@@ -83,6 +83,10 @@ float bounds(float a, float b) {
   return clamp(a * float(3.0) - float(1.0), float(0.0), float(1.0)) + min(a, b) * max(b, float(0.5)) + mix(a, b, float(0.3));
 }
 
+float halves(float a, float b) {
+  return roundEven(floor(a * float(16.0)) * float(0.5)) + roundEven(b * float(9.0)) * float(32.0) + roundEven(-floor(b * float(5.0)) * float(0.5));
+}
+
 float remainders(float a, float b) { return mod(a * float(5.0), b + float(0.25)); }
 
 float curves(float a, float b) { return exp(-a) + log(b + float(1.0)) + sin(a) * cos(b) + atan(a, b + float(0.1)); }

@@ -61,6 +61,7 @@ struct Words {
   static real atan(real x) { return std::atan(x); }
   static real sqrt(real x) { return std::sqrt(x); }
   static real floor(real x) { return std::floor(x); }
+  static real roundEven(real x) { return std::nearbyint(x); }
   static real exp(real x) { return std::exp(x); }
   static real log(real x) { return std::log(x); }
   static real sin(real x) { return std::sin(x); }
@@ -91,6 +92,7 @@ struct Corpus : Words<real> {
   using Words<real>::atan;
   using Words<real>::sqrt;
   using Words<real>::floor;
+  using Words<real>::roundEven;
   using Words<real>::exp;
   using Words<real>::log;
   using Words<real>::sin;
@@ -158,6 +160,7 @@ void expect_bits_of_compiler() {
       {"roots", &Corpus<F>::roots},
       {"steps", &Corpus<F>::steps},
       {"bounds", &Corpus<F>::bounds},
+      {"halves", &Corpus<F>::halves},
       {"remainders", &Corpus<F>::remainders},
       {"curves", &Corpus<F>::curves},
       {"angles_of", &Corpus<F>::angles_of},
