@@ -208,6 +208,7 @@ void print(const ModelChoice& choice, const Advice& advice) {
             : fmt::format(", {} at a bound", fmt::join(r.parameters_at_bound, ", ")));
     if (!r.note.empty()) say_below("          ", r.note);
   }
+  if (const auto words = floor_in_words(choice); !words.empty()) say_below("", words);
 }
 
 /// Models compared on one table.

@@ -122,6 +122,15 @@ std::span<const std::string_view> usual_models() {
   return all;
 }
 
+std::string floor_in_words(const ModelChoice& choice) {
+  return choice.log_offset > 0
+             ? fmt::format(
+                   "Log RMS counts from {:.3g} 1/sr, the log metric's offset. A fit's own typical "
+                   "factor has no offset: it counts small values, and their noise, in full.",
+                   choice.log_offset)
+             : "";
+}
+
 std::vector<std::string> models_asked(std::vector<std::string> models) {
   if (models == std::vector<std::string>{"all"})
     models.assign(usual_models().begin(), usual_models().end());
@@ -177,6 +186,7 @@ ModelChoice compare_models(const Table& t,
       residuals[k] = log_residuals(by_log, fitted.model, most_groups);
       step = static_cast<double>(Tasks::step_to(by_log.groups().size(), most_groups));
       row.log_rms = total(residuals[k]).rms();
+      choice.log_offset = by_log.offset();
       if (!blocks) blocks = incident_blocks(by_log);
       left_out[k] = cross_validate(t, p, *blocks, fitted.model);
       if (blocks->count > 0) {

@@ -43,9 +43,14 @@ struct ModelChoice {
   std::vector<BoundModel> fits;  ///< of each row; empty models where there is none
   /// Values that would say as much if each were independent: what AIC and BIC count.
   double effective_values = ModelRow::unknown;
+  /// Noise floor that log RMS counts from, as a fit by log does [1/sr]; 0: values count as they are.
+  double log_offset = 0;
   std::size_t blocks = 0;             ///< of incident angles
   std::vector<std::string> warnings;  ///< of the table's values, whatever the model
 };
+
+/// What log RMS counts from where there is a floor, in a sentence; empty without.
+std::string floor_in_words(const ModelChoice&);
 
 /// Models that are compared where `all` is asked for.
 std::span<const std::string_view> usual_models();

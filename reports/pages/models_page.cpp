@@ -494,14 +494,18 @@ std::string ModelsSections::html() {
       "What the words mean",
       "",
       {Pairs{
-          {{"log RMS", "typical size of ln f − ln y, model over table: 0.1 is a factor of 1.1"},
+          {{"log RMS",
+            fmt::format("typical size of ln f − ln y, model over table: 0.1 is a factor of 1.1. {}",
+                        floor_in_words(choice_))},
            {"free", "values that were fitted, those of each channel counted"},
            {"unseen",
             "log RMS on incident angles that were left out of the fit. It grows where a model has "
             "more parameters than the table can determine"},
            {"as good",
-            "at most 5 % more of it than the best model and within two standard errors "
-            "over the blocks, or 0.1 % more; and a BIC that is no more than 10 higher"},
+            "at most 5 % more of it than the best model, or as much as few values make by chance, "
+            "and within "
+            "Student's t standard errors over the blocks; or 0.1 % more; and a BIC that is no more "
+            "than 10 higher"},
            {"BIC",
             "judges the fit to the whole table, and penalises each free value; less is better, and "
             "only differences count"},

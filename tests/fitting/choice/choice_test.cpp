@@ -209,6 +209,20 @@ ModelRow row(const char* model, std::size_t parameters, double cv, double behind
   return r;
 }
 
+TEST(ModelChoice, SaysFromWhichOffsetItsLogRmsCounts) {
+  Table t = table_of(paint, {"alpha=0.3", "f0=0.04", "kd=0.2"}, 1);
+  EXPECT_EQ(floor_in_words(compare_models(t, {}, std::array{paint})), "");
+  for (std::size_t i = 0; i < t.size(); i += 10) t.values[0][i] = i % 20 == 0 ? -1e-3 : 1e-3;
+  const auto choice = compare_models(t, {}, std::array{paint});
+  FitOptions o;
+  o.model = paint;
+  const FitDocument d = fit(t, o).document;
+  ASSERT_GT(d.log_offset, 0);
+  EXPECT_EQ(choice.log_offset, d.log_offset);
+  EXPECT_LT(choice.rows[0].log_rms, d.residuals.log_rms);
+  EXPECT_HAS(floor_in_words(choice), fmt::format("{:.3g} 1/sr", d.log_offset));
+}
+
 TEST(Advice, TellsWhereOtherJudgesPreferAnotherModel) {
   ModelChoice c;
   c.rows = {row("small", 3, 0.3, 9, 100), row("large", 9, 0.2, 0, 140)};
