@@ -107,7 +107,7 @@ TEST(Undetermined, AsksForMoreThanTheLargestOfNNormalDeviatesMayGive) {
     for (const double part : {0.0, 0.03, 0.1, 0.3, 0.6, 1.0})
       most = std::max(most, std::abs(cost_at(low + part * (high - low)) - cost_at(0.3)));
     Uncertainty u(1);
-    u.std_error = {0.1};
+    u[0].std_error = 0.1;
     find_undetermined(p, data, f, counted, false, u);
     return Looked{2 * most / (2 * cost_at(0.3) / count), u[0].status};
   };
@@ -285,10 +285,7 @@ TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
   f.groups = data.groups;
   for (const bool widened : {false, true}) {
     Uncertainty u(2);
-    u.std_error = {10, 10};
-    u.t = {2, 2};
-    u.freedom = {100, 100};
-    u.variance = {1e9, 1e9};
+    for (auto& v : u.verdicts) v.std_error = 10, v.t = 2, v.freedom = 100, v.variance = 1e9;
     find_undetermined(p, data, f, counted, widened, u);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(u[i].status,
