@@ -212,7 +212,10 @@ ModelRow row(const char* model, std::size_t parameters, double cv, double behind
 TEST(ModelChoice, SaysFromWhichOffsetItsLogRmsCounts) {
   Table t = table_of(paint, {"alpha=0.3", "f0=0.04", "kd=0.2"}, 1);
   EXPECT_EQ(floor_in_words(compare_models(t, {}, std::array{paint})), "");
-  for (std::size_t i = 0; i < t.size(); i += 10) t.values[0][i] = i % 20 == 0 ? -1e-3 : 1e-3;
+  t.channels = {"r", "g"};
+  t.values.push_back(t.values[0]);
+  for (auto& plane : t.values)
+    for (std::size_t i = 0; i < t.size(); i += 10) plane[i] = i % 20 == 0 ? -1e-3 : 1e-3;
   const auto choice = compare_models(t, {}, std::array{paint});
   FitOptions o;
   o.model = paint;
