@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 
+#include "base/quantile.h"
 #include "geometry/vector.h"
 
 namespace gonio {
@@ -265,15 +266,27 @@ Direction TexelRegister::axis(const Column<float>& frame, std::size_t k, std::si
   return {of(0), of(1), of(2)};
 }
 
-Direction TexelRegister::light(std::size_t image, std::size_t lane) const {
+Direction TexelRegister::of_image(const Column<float>& directions,
+                                  std::size_t image,
+                                  std::size_t lane) const {
   const auto of = [&](std::size_t k) {
     const std::size_t at = k * in_.images + image;
-    return double{light_[in_.shared ? at : at * width_ + lane]};
+    return double{directions[in_.shared ? at : at * width_ + lane]};
   };
   return {of(0), of(1), of(2)};
 }
 
-/// Normal times albedo of a matt surface that sends what was measured; 0 where the lights lie in a plane.
+std::optional<double> TexelRegister::light_of(std::size_t image, std::size_t lane) const {
+  const std::size_t at = image * width_ + lane;
+  double sum = 0;
+  bool any = false;
+  for (std::size_t c = 0; c < in_.channels; ++c)
+    if (weight_[c][at] > 0) any = true, sum += double{target_[c][at]};
+  return any ? std::optional(sum * double{cosine_[at]}) : std::nullopt;
+}
+
+/// Normal times albedo of a matt surface that sends what was measured, by least squares of ρ n·l, what is brighter counting less:
+/// highlights are.  0 where the lights lie in a plane.
 Direction TexelRegister::matt_normal(std::size_t lane) const {
   constexpr int rounds = 4;
   Direction m{};
@@ -282,7 +295,7 @@ Direction TexelRegister::matt_normal(std::size_t lane) const {
     std::array<double, 3> g{};
     for (std::size_t i = 0; i < in_.images; ++i) {
       const std::size_t at = i * width_ + lane;
-      const Direction l = light(i, lane);
+      const Direction l = of_image(light_, i, lane);
       for (std::size_t c = 0; c < in_.channels; ++c) {
         if (!(weight_[c][at] > 0)) continue;
         const double y = double{target_[c][at]} * double{cosine_[at]}, matt = dot(m, l);
@@ -306,11 +319,31 @@ Direction TexelRegister::matt_normal(std::size_t lane) const {
   return m;
 }
 
-void TexelRegister::find_tilt(std::span<const float> low,
+/// Sum of the half vectors of all images by the square of what is brighter than half of them: near the middle of a highlight.
+Direction TexelRegister::highlight_normal(std::size_t lane) const {
+  std::vector<double> all;
+  for (std::size_t i = 0; i < in_.images; ++i)
+    if (const auto y = light_of(i, lane)) all.push_back(*y);
+  if (all.empty()) return {};
+  const double middle = median(all);
+  Direction m{};
+  for (std::size_t i = 0; i < in_.images; ++i) {
+    const auto y = light_of(i, lane);
+    if (!y || *y <= middle) continue;
+    const Direction l = of_image(light_, i, lane), v = of_image(view_, i, lane);
+    const Direction h{l.x + v.x, l.y + v.y, l.z + v.z};
+    const double w = square(*y - middle) / std::sqrt(dot(h, h));
+    m = {m.x + w * h.x, m.y + w * h.y, m.z + w * h.z};
+  }
+  return m;
+}
+
+void TexelRegister::find_tilt(Tilt tilt,
+                              std::span<const float> low,
                               std::span<const float> high,
                               float* to) const {
   for (std::size_t l = 0; l < width_; ++l) {
-    const Direction m = matt_normal(l);
+    const Direction m = tilt == Tilt::matt ? matt_normal(l) : highlight_normal(l);
     const double along = dot(m, axis(base_, 2, l)), length = std::sqrt(dot(m, m));
     constexpr double steepest = 0.2;  // cosine
     for (std::size_t k = 0; k < 2; ++k)

@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -32,10 +33,10 @@ class TexelRegister {
   void turn(const float* deg);
   /// Tilts the normals by what is added to them along their tangents and bitangents.  \param tilt  [2][padding]
   void tilt(const float* tilt);
-  /// The tilt at which matt surfaces would send the light that was measured, by least squares of ρ n·l, what is brighter
-  /// counting less: highlights are.  0 where the lights or the answer say nothing.
-  /// \param low, high  bounds of the two unknowns   \param to  [2][padding]
-  void find_tilt(std::span<const float> low, std::span<const float> high, float* to) const;
+  /// Tilts from which a fit may begin: where matt surfaces would send the light that was measured, and where the highlight is.
+  enum class Tilt { matt, highlight };
+  /// \param low, high  bounds of the two unknowns   \param to  [2][padding]; 0 where lights or values say nothing
+  void find_tilt(Tilt, std::span<const float> low, std::span<const float> high, float* to) const;
 
   const LaneSamples& samples() const { return samples_; }
   /// Σ (w target)², [padding]
@@ -54,8 +55,11 @@ class TexelRegister {
   void put_frames(std::span<const std::size_t> texels);
   void make_angles();
   Direction axis(const Column<float>& frame, std::size_t k, std::size_t lane) const;
-  Direction light(std::size_t image, std::size_t lane) const;
+  Direction of_image(const Column<float>& directions, std::size_t image, std::size_t lane) const;
+  /// Sum of a lane's compared values of an image, over channels, times n·l of the given normal; none without values.
+  std::optional<double> light_of(std::size_t image, std::size_t lane) const;
   Direction matt_normal(std::size_t lane) const;
+  Direction highlight_normal(std::size_t lane) const;
 
   const TexelTask& task_;
   const TexelSamples& in_;

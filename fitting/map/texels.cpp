@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 
 #include "base/error.h"
 #include "fitting/judge/uncertainty.h"
@@ -36,6 +37,8 @@ class LaneFit {
 
  private:
   void find_start(std::span<const TexelTask::Start> starts);
+  std::vector<float> start_of(std::span<const TexelTask::Start> starts);
+  void begin_tilted(std::span<const TexelTask::Start>, std::vector<std::vector<float>>& begins);
   bool descend(int steps);
   void fit(std::span<const std::size_t> texels, std::span<const Waiting> waiting, int steps);
   void take_lowest(std::vector<float>& lowest);
@@ -124,6 +127,61 @@ void LaneFit::put_values(const float* unknowns) {
     register_.tilt(unknowns + task_.unknown_of[slots] * padding);
 }
 
+/// The best of the shapes that are tried, all else solved for; its cost is the state's.
+std::vector<float> LaneFit::start_of(std::span<const TexelTask::Start> starts) {
+  find_start(starts);
+  return {state_.x, state_.x + n() * padding};
+}
+
+/// The two best starts of a group from normals that are spread over a cone, of the lane's own among them: from one far off other
+/// parameters are led astray before it is found.
+void LaneFit::begin_tilted(std::span<const TexelTask::Start> group,
+                           std::vector<std::vector<float>>& begins) {
+  const auto& u = task_.unknowns;
+  const std::size_t first = task_.unknown_of[task_.model().value_count];
+  std::array<std::vector<float>, 2> best;
+  std::array<std::array<float, padding>, 2> cost;
+  for (auto& c : cost) c.fill(std::numeric_limits<float>::infinity());
+  for (auto& x : best) x.assign(n() * padding, 0.0F);
+  const auto look = [&] {
+    const auto x = start_of(group);
+    for (std::size_t l = 0; l < padding; ++l) {
+      const float here = state_.cost[l];
+      const std::size_t at = here < cost[0][l] ? 0 : here < cost[1][l] ? 1 : 2;
+      if (at == 2) continue;
+      for (std::size_t i = l; i < n() * padding; i += padding) {
+        if (at == 0) best[1][i] = best[0][i];
+        best[at][i] = x[i];
+      }
+      if (at == 0) cost[1][l] = cost[0][l];
+      cost[at][l] = here;
+    }
+  };
+  look();
+  for (const auto tilt : {TexelRegister::Tilt::matt, TexelRegister::Tilt::highlight}) {
+    register_.find_tilt(tilt, std::span(u.low).subspan(first), std::span(u.high).subspan(first),
+                        tilt_.data());
+    look();
+  }
+  for (const double steep : {0.2, 0.45})
+    for (int k = 0; k < 6; ++k) {
+      const double turn = (k + (steep > 0.3 ? 0.5 : 0)) * std::numbers::pi / 3;
+      std::fill_n(tilt_.data(), padding, static_cast<float>(steep * std::cos(turn)));
+      std::fill_n(tilt_.data() + padding, padding, static_cast<float>(steep * std::sin(turn)));
+      look();
+    }
+  for (auto& x : best) begins.push_back(std::move(x));
+  // A diffuse roughness of 0 does not move.
+  const auto from = begins[begins.size() - 2];
+  for (const float part : {0.1F, 0.2F, 0.4F}) {
+    if (!has_middles_) break;
+    auto& x = begins.emplace_back(from);
+    for (std::size_t i = 0; i < n(); ++i)
+      if (u.slot[i] < is_middle_.size() && is_middle_[u.slot[i]])
+        std::fill_n(x.data() + i * padding, padding, std::lerp(u.low[i], u.high[i], part));
+  }
+}
+
 /// The best of the shapes that are tried, all else solved for.
 void LaneFit::find_start(std::span<const TexelTask::Start> starts) {
   const auto& u = task_.unknowns;
@@ -176,32 +234,13 @@ void LaneFit::fit(std::span<const std::size_t> texels,
                   int steps) {
   register_.gather(texels);
   std::vector<std::vector<float>> begins;
-  const auto find_starts = [&] {
-    for (const auto& group : task_.starts) {
-      find_start(group);
-      begins.emplace_back(state_.x, state_.x + n() * padding);
-    }
-  };
   if (waiting.empty()) {
     std::fill_n(tilt_.data(), 2 * padding, 0.0F);
-    find_starts();
-    // From a normal far off other parameters are led astray before it is found.
-    if (task_.asked.refine_normals && in_.normal.empty()) {
-      const std::size_t first = task_.unknown_of[task_.model().value_count];
-      register_.find_tilt(std::span(task_.unknowns.low).subspan(first),
-                          std::span(task_.unknowns.high).subspan(first), tilt_.data());
-      find_starts();
-      // A diffuse roughness of 0 does not move.
-      const auto& u = task_.unknowns;
-      const auto tilted = begins;
-      for (const float part : {0.1F, 0.2F, 0.4F})
-        for (std::size_t g = tilted.size() / 2; has_middles_ && g < tilted.size(); ++g) {
-          auto& x = begins.emplace_back(tilted[g]);
-          for (std::size_t i = 0; i < n(); ++i)
-            if (u.slot[i] < is_middle_.size() && is_middle_[u.slot[i]])
-              std::fill_n(x.data() + i * padding, padding, std::lerp(u.low[i], u.high[i], part));
-        }
-    }
+    for (const auto& group : task_.starts)
+      if (task_.asked.refine_normals && in_.normal.empty())
+        begin_tilted(group, begins);
+      else
+        begins.push_back(start_of(group));
   }
   register_.in_logarithms();
   std::fill_n(state_.damping, padding, 0.0F);
