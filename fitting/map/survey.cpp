@@ -248,13 +248,15 @@ StackSurvey survey(const TexelSamples& s, const TexelOptions& o) {
                 o);
 }
 
-StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
-  // Fewer texels of many images, and of wide ones no more than the middle: neither time nor memory
-  // grows with them.  They lie in squares of four, whose normals say whether they belong to a
-  // surface.
+namespace {
+
+/// Texels spread over a stack in squares of four, whose normals say whether they belong to a surface: fewer of many images, and of wide
+/// ones no more than the middle, so that neither time nor memory grows with them.
+/// \param times  how many times as many as are looked at
+TexelSample sample_of(const StackReader& stack, std::size_t times) {
   constexpr std::size_t least_rows = 4, most_of_row = 64, most_numbers = 1 << 24;
   const std::size_t images = stack.stack().images.size(),
-                    texels = least_rows *
+                    texels = times * least_rows *
                              std::clamp(std::size_t{1 << 14} / images, std::size_t{8}, most_of_row),
                     columns = std::clamp(most_numbers / (2 * images * stack.channels().size()),
                                          std::size_t{1}, stack.width()),
@@ -310,7 +312,22 @@ StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
         for (std::size_t k = 0; k < s.channels; ++k)
           s.values[(i * s.channels + k) * s.texels + t] *= by;
       }
-  return survey(s, o);
+  return s;
+}
+
+}  // namespace
+
+StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
+  StackSurvey found = survey(sample_of(stack, 1), o);
+  TexelOptions refined = o;
+  refined.refine_normals = o.refine_normals || found.better == "--refine-normals";
+  if (!refined.refine_normals || stack.has_normals() || found.arrangement.sure) return found;
+  // Of gentle bumps the curl of a few squares is noise.
+  constexpr std::size_t many = 16;
+  const TexelSample more = sample_of(stack, many);
+  if (const auto other = arrangement_of_normals(more, fit_sample(more, refined)); other.sure)
+    found.arrangement = other;
+  return found;
 }
 
 std::vector<float> misfit_of(const TexelFit& f, const TexelNoise& n) {
