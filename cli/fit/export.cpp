@@ -69,7 +69,17 @@ Exit run_map(const ExportCall& o) {
     return Exit::done;
   }
   say("textures  {} × {}, {} texels metal{}\n", e.width, e.height, e.metals,
-      e.unknown ? fmt::format(", {} unknown", e.unknown) : "");
+      e.unknown ? fmt::format(", {} not known whole", e.unknown) : "");
+  for (const auto& f : e.filled) {
+    std::vector<std::string> values;
+    for (const double v : f.value) values.push_back(fmt::format("{:.3g}", v));
+    say_below("filled    ",
+              fmt::format("{} of {} texels do not know {}: {} stands there{}", f.texels,
+                          e.width * e.height, f.parameter, fmt::join(values, ", "),
+                          10 * (e.width * e.height - f.texels) < e.width * e.height
+                              ? ", its default"
+                              : ", the map's median"));
+  }
   say("residual  {:.3g} % (RMS of the median texel); one texel in 20 is off by more than {:.3g} "
       "%\n",
       100 * e.median_residual, 100 * e.high_residual);

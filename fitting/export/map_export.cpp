@@ -12,6 +12,7 @@
 #include "base/file.h"
 #include "base/json/describe.h"
 #include "base/json/reader.h"
+#include "base/quantile.h"
 #include "base/text.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/own_files.h"
@@ -31,6 +32,14 @@
 namespace gonio {
 
 template <>
+inline constexpr auto description<FilledParameter> =
+    FieldList{Field{"parameter", &FilledParameter::parameter, ""},
+              Field{"texels", &FilledParameter::texels, "that do not know it"},
+              Field{"value", &FilledParameter::value,
+                    "of each channel, or one: the median of the texels that know it, or its "
+                    "default if fewer than a tenth do"}};
+static_assert(describes_every_member<FilledParameter>());
+template <>
 inline constexpr auto description<MapExport> = FieldList{
     constant_text("schema", "gonio.map_export/1"),
     Field{"map", &MapExport::map, "path of the map"},
@@ -38,8 +47,10 @@ inline constexpr auto description<MapExport> = FieldList{
     Field{"width", "texels", &MapExport::width, ""},
     Field{"height", "texels", &MapExport::height, ""},
     Field{"unknown", "texels", &MapExport::unknown, "without a value of each parameter"},
+    Field{"filled", &MapExport::filled, "what these have in the place of the unknown ones"},
     Field{"metals", "texels", &MapExport::metals, "whose metallic is 1"},
-    Field{"ior", &MapExport::ior, "refractive index of the strongest highlight that is no metal's"},
+    Field{"ior", &MapExport::ior,
+          "refractive index of the highlight that one in 100 texels that are no metals exceeds"},
     Field{"median_residual", &MapExport::median_residual,
           "of the texels: root mean square of the relative distance from the map's f"},
     Field{"high_residual", &MapExport::high_residual, "the same, beyond which one texel in 20 is"},
@@ -58,12 +69,13 @@ namespace {
 constexpr std::size_t rows_at_once = 16, judged = 32;
 constexpr std::size_t most_texels = std::size_t{1} << 24;
 constexpr double largest_ior = 10;
+constexpr std::size_t most_looked_at = 1 << 16;  ///< texels that medians are of
 
 /// A texel's material by glTF's parameters.
 struct Texel {
   std::array<double, 3> base{}, f0{};
   double roughness = 1;
-  bool metal = false, known = false;
+  bool metal = false;
 };
 
 /// Numbers of a colour: of grey three times the same.
@@ -73,9 +85,6 @@ double of(const std::vector<double>& values, std::size_t c) {
 
 Texel texel_of(const BoundModel& model) {
   Texel t;
-  for (const double v : model.values)
-    if (std::isnan(v)) return t;
-  t.known = true;
   const Surface s = surface_of(model);
   const SurfaceLobe* lobe = nullptr;
   for (const auto& placed : placements(s))
@@ -172,6 +181,72 @@ void for_each_texel(const BoundModel& start, const std::string& path, Each&& eac
       }
     });
   }
+}
+
+/// Values that a map has where a texel does not know its own, and what they stand for.
+class MapMedians {
+ public:
+  MapMedians(const BoundModel& start, const std::string& map, std::size_t texels) : start_(start) {
+    const std::size_t step = (texels + most_looked_at - 1) / most_looked_at;
+    std::vector<std::vector<double>> seen(start.values.size(),
+                                          std::vector<double>((texels + step - 1) / step));
+    for_each_texel(start, map, [&](std::size_t t, const BoundModel& model) {
+      if (t % step != 0) return;
+      for (std::size_t v = 0; v < seen.size(); ++v) seen[v][t / step] = model.values[v];
+    });
+    values_ = start.values;
+    for (std::size_t v = 0; v < seen.size(); ++v) {
+      constexpr std::size_t few = 10;  // in a hundred, who may know it by chance
+      const std::size_t all = seen[v].size();
+      std::erase_if(seen[v], [](double x) { return std::isnan(x); });
+      if (100 * seen[v].size() >= few * all) values_[v] = median(seen[v]);
+    }
+    missing_ = std::vector<std::atomic<std::size_t>>(start.model.parameters.size());
+  }
+
+  /// Fills a texel's model in.
+  /// \return  whether it knew all itself
+  bool fill(BoundModel& texel) {
+    bool knew_all = true;
+    for (std::size_t k = 0; k < missing_.size(); ++k) {
+      const auto& q = start_.model.parameters[k];
+      bool knew = true;
+      for (std::size_t v = q.first; v < q.first + q.count; ++v)
+        if (std::isnan(texel.values[v])) knew = false, texel.values[v] = values_[v];
+      if (!knew) ++missing_[k];
+      knew_all = knew_all && knew;
+    }
+    return knew_all;
+  }
+  std::vector<FilledParameter> filled() const {
+    std::vector<FilledParameter> all;
+    for (std::size_t k = 0; k < missing_.size(); ++k) {
+      const auto& q = start_.model.parameters[k];
+      const auto first = values_.begin() + static_cast<std::ptrdiff_t>(q.first);
+      if (missing_[k] > 0)
+        all.push_back({q.name, missing_[k], {first, first + static_cast<std::ptrdiff_t>(q.count)}});
+    }
+    return all;
+  }
+
+ private:
+  const BoundModel& start_;
+  std::vector<double> values_;
+  std::vector<std::atomic<std::size_t>> missing_;  ///< [parameter]
+};
+
+/// F0 that one in 100 texels that are no metals exceeds.
+double strongest_highlight(const BoundModel& start, const std::string& map, std::size_t texels) {
+  const std::size_t step = (texels + most_looked_at - 1) / most_looked_at;
+  std::vector<double> seen((texels + step - 1) / step, std::numeric_limits<double>::quiet_NaN());
+  for_each_texel(start, map, [&](std::size_t t, const BoundModel& model) {
+    if (t % step != 0 || std::ranges::any_of(model.values, [](double v) { return std::isnan(v); }))
+      return;
+    const Texel texel = texel_of(model);
+    if (!texel.metal) seen[t / step] = *std::ranges::max_element(texel.f0);
+  });
+  std::erase_if(seen, [](double x) { return std::isnan(x); });
+  return seen.empty() ? f0_of(1.5) : std::min(quantile(seen, 0.99), f0_of(largest_ior));
 }
 
 /// A plane of the image's shape in the xy plane, its texture's top at the top.
@@ -294,15 +369,7 @@ MapExport export_map(const std::string& path, std::string& file) {
   e.height = header.height;
   const std::size_t texels = e.width * e.height;
 
-  std::atomic<double> strongest_f0 = 0;
-  for_each_texel(start, path, [&](std::size_t, const BoundModel& model) {
-    const Texel t = texel_of(model);
-    if (t.metal) return;
-    const double most = *std::ranges::max_element(t.f0);
-    for (double now = strongest_f0; now < most;)
-      if (strongest_f0.compare_exchange_weak(now, most)) break;
-  });
-  const double strongest = std::min(strongest_f0.load(), f0_of(largest_ior));
+  const double strongest = strongest_highlight(start, path, texels);
   e.ior = mapped<IorFromF0, double>(strongest)[0];
 
   PngImage base, rough, tint;
@@ -321,20 +388,23 @@ MapExport export_map(const std::string& path, std::string& file) {
   const TargetForm form = gltf_target.forms(with_a_lobe).back();
   std::vector<float> residuals(texels, std::numeric_limits<float>::quiet_NaN());
   std::vector<unsigned char> metal(texels);
-  for_each_texel(start, path, [&](std::size_t t, const BoundModel& model) {
+  MapMedians medians(start, path, texels);
+  for_each_texel(start, path, [&](std::size_t t, BoundModel& model) {
+    const bool knew = medians.fill(model);
     const Texel texel = texel_of(model);
     const TexelBytes bytes = bytes_of(texel, strongest);
     base.pixels[t] = bytes.base;
     rough.pixels[t] = bytes.rough;
     tint.pixels[t] = bytes.tint;
     metal[t] = texel.metal;
-    if (texel.known)
+    if (knew)
       residuals[t] = static_cast<float>(residual_of(form.values(parameters_of(bytes, e.ior), at),
                                                     evaluate(model, at), surface_of(model)));
   });
   e.metals = static_cast<std::size_t>(std::ranges::count(metal, 1));
   std::erase_if(residuals, [](float r) { return std::isnan(r); });
   e.unknown = texels - residuals.size();
+  e.filled = medians.filled();
   std::ranges::sort(residuals);
   if (!residuals.empty()) {
     e.median_residual = double{residuals[residuals.size() / 2]};

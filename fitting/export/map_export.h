@@ -8,15 +8,25 @@
 
 namespace gonio {
 
+/// Parameter that the textures have where a map does not know it: the median of the texels that do, or its default where
+/// fewer than a tenth do.
+struct FilledParameter {
+  std::string parameter;
+  std::size_t texels = 0;     ///< that do not know it
+  std::vector<double> value;  ///< of each channel, or one
+};
+
 /// Map of parameters as glTF's metallic-roughness material with textures: base colour, metallic and roughness, the highlight's colour
 /// (KHR_materials_specular, beside the map's strongest F0 by KHR_materials_ior), and normals where the map has them.
 struct MapExport {
   std::string map, model;
   std::size_t width = 0, height = 0;
-  std::size_t unknown = 0;  ///< texels without a value of each parameter: black and rough
+  std::size_t unknown = 0;              ///< texels without a value of each parameter
+  std::vector<FilledParameter> filled;  ///< what they have in its place
   std::size_t metals =
       0;  ///< texels whose highlight is stronger than their diffuse colour: metallic is 1
-  double ior = 1.5;  ///< of the strongest highlight of all texels that are no metals
+  /// Of the highlight that one in 100 texels that are no metals exceeds: a texel whose fit went astray sets it for no other.
+  double ior = 1.5;
   /// Distance of the textures' eight bits, by glTF's own equations, from the map's f: root mean square by texel, relative as scale_of says, at
   /// 32 pairs of directions up to 80°.  Of the texels the median, and what one in 20 is beyond.
   double median_residual = 0, high_residual = 0;

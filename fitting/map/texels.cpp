@@ -38,6 +38,7 @@ class LaneFit {
  private:
   void find_start(std::span<const TexelTask::Start> starts);
   std::vector<float> start_of(std::span<const TexelTask::Start> starts);
+  void add_middles(std::vector<std::vector<float>>& begins) const;
   void begin_tilted(std::span<const TexelTask::Start>, std::vector<std::vector<float>>& begins);
   bool descend(int steps);
   void fit(std::span<const std::size_t> texels, std::span<const Waiting> waiting, int steps);
@@ -171,14 +172,17 @@ void LaneFit::begin_tilted(std::span<const TexelTask::Start> group,
       look();
     }
   for (auto& x : best) begins.push_back(std::move(x));
-  // A diffuse roughness of 0 does not move.
-  const auto from = begins[begins.size() - 2];
+}
+
+/// Adds the first of these starts with diffuse roughnesses that move: one of 0 does not.
+void LaneFit::add_middles(std::vector<std::vector<float>>& begins) const {
+  const auto& u = task_.unknowns;
   for (const float part : {0.1F, 0.2F, 0.4F}) {
-    if (!has_middles_) break;
-    auto& x = begins.emplace_back(from);
+    auto x = begins.front();
     for (std::size_t i = 0; i < n(); ++i)
       if (u.slot[i] < is_middle_.size() && is_middle_[u.slot[i]])
         std::fill_n(x.data() + i * padding, padding, std::lerp(u.low[i], u.high[i], part));
+    begins.push_back(std::move(x));
   }
 }
 
@@ -241,6 +245,7 @@ void LaneFit::fit(std::span<const std::size_t> texels,
         begin_tilted(group, begins);
       else
         begins.push_back(start_of(group));
+    if (has_middles_) add_middles(begins);
   }
   register_.in_logarithms();
   std::fill_n(state_.damping, padding, 0.0F);

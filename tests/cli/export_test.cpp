@@ -141,6 +141,46 @@ TEST(ExportCommand, WritesAMapAsTexturesThatShowItsFits) {
   EXPECT_FALSE(std::filesystem::exists(f / "m2.gltf"));
 }
 
+TEST(ExportCommand, FillsInWhatTexelsOfAMapDoNotKnowAndLetsNoneSetAllOthersHighlight) {
+  const Folder f;
+  const std::size_t texels = 400;
+  Image map;
+  map.width = map.height = 20;
+  map.channels = {"kd", "alpha", "f0"};
+  map.planes = {std::vector<float>(texels, 0.3F), std::vector<float>(texels, 0.25F),
+                std::vector<float>(texels, 0.04F)};
+  map.attributes = {{"gonio:schema", "gonio.map/1"},
+                    {"gonio:model", "lambert+ggx/smith_ggx.correlated/schlick"},
+                    {"gonio:stack", "none"},
+                    {"gonio:channels", "Y"}};
+  for (std::size_t t = 0; t < 8; ++t) map.planes[1][t] = map.planes[2][t] = std::nanf("");
+  map.planes[2][9] = 0.2F;  // one fit that went astray
+  const auto exported = [&] {
+    write_exr(f / "maps.exr", map);
+    return gonio(f, "export maps.exr --to gltf -o m.gltf --json").json();
+  };
+  auto said = exported();
+  EXPECT_NEAR(said["ior"], 1.5, 1e-6);
+  EXPECT_EQ(said["unknown"], 8);
+  EXPECT_EQ(said["filled"].size(), 2U);
+  EXPECT_EQ(said["filled"][0]["parameter"], "alpha");
+  EXPECT_EQ(said["filled"][0]["texels"], 8);
+  EXPECT_NEAR(said["filled"][0]["value"][0], 0.25, 1e-6);
+  const auto file = nlohmann::json::parse(read_bytes(f / "m.gltf"));
+  const auto pixel = [&](std::size_t image) {
+    const auto uri = file["images"][image]["uri"].get<std::string>();
+    return png_pixels(from_base64(uri.substr(uri.find(',') + 1))).pixels[0];
+  };
+  EXPECT_NEAR(pixel(0)[0], srgb_byte(0.3), 1) << "kd is known there";
+  EXPECT_NEAR(pixel(1)[1], 127.5, 1) << "the root of alpha";
+  // What hardly any texel knows may be known by chance.
+  for (std::size_t t = 0; t + 8 < texels; ++t) map.planes[1][t] = std::nanf("");
+  said = exported();
+  EXPECT_NE(said["filled"][0]["value"][0], 0.25);
+  EXPECT_NE(gonio(f, "export maps.exr --to gltf -o m.gltf").out.find(", its default"),
+            std::string::npos);
+}
+
 TEST(ExportCommand, RefusesAMapTooLargeForTexturesBeforeItIsRead) {
   const Folder f;
   Image map;  // that its bytes pack to nothing costs nobody gigabytes

@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <numeric>
 
+#include "fitting/map/arrangement.h"
 #include "fitting/map/stack.h"
 #include "fitting/map/stacks.h"
 
@@ -263,13 +264,14 @@ Image without_normals() {
 }
 
 /// Photographs of waves, given without their normals.
-gonio::Stack waves(const Folder& f) {
+/// \param turn  of their phase from one texel to the next   \param steep  slope
+gonio::Stack waves(const Folder& f, float turn = 0.3F, float steep = 0.2F) {
   Image normals = without_normals();
   for (std::size_t t = 0; t < map_width * map_height; ++t) {
-    const auto u = 0.3F * static_cast<float>(t % map_width),
-               v = -0.2F * static_cast<float>(t / map_width);
-    const float p = 0.2F * std::cos(u) * std::cos(v), q = -0.2F * std::sin(u) * std::sin(v) * 0.7F,
-                z = 1 / std::sqrt(1 + p * p + q * q);
+    const auto u = turn * static_cast<float>(t % map_width),
+               v = -turn / 1.5F * static_cast<float>(t / map_width);
+    const float p = steep * std::cos(u) * std::cos(v),
+                q = -steep * std::sin(u) * std::sin(v) * 0.7F, z = 1 / std::sqrt(1 + p * p + q * q);
     normals.planes[0].push_back(-p * z);
     normals.planes[1].push_back(-q * z);
     normals.planes[2].push_back(z);
@@ -313,6 +315,59 @@ TEST(Survey, SaysThatRefinedNormalsBelongToNoSurface) {
   }
   const auto turned = survey(StackReader(stack), o).arrangement;
   EXPECT_NE(turned.what.find("quarter turn"), turned.what.npos) << turned.what;
+}
+
+TEST(Survey, SaysSoOfGentleBumpsAndWhereNormalsAreNotAskedForToo) {
+  const Folder f;
+  for (const bool refined : {true, false}) {
+    const auto stack = waves(f, 0.15F, 0.2F);
+    TexelOptions o;
+    o.refine_normals = refined;
+    EXPECT_EQ(survey(StackReader(stack), o).arrangement.what, "");
+    auto negated = stack;
+    for (auto& image : negated.images) {
+      auto& light = std::get<SideAngles<Side::light>>(image.light);
+      light.phi_deg = -light.phi_deg;
+    }
+    const auto found = survey(StackReader(negated), o).arrangement;
+    EXPECT_TRUE(found.sure) << refined << " " << found.ratio << " "
+                            << survey(StackReader(negated), o).better;
+    EXPECT_NE(found.what.find("negated"), found.what.npos) << found.what;
+  }
+}
+
+TEST(Survey, KnowsFromManySquaresWhatFewDoNotTell) {
+  // Normals of a gentle height (a/k) sin kx cos ky with noise of half of what they change by within
+  // a square.
+  const auto looked_at = [](std::size_t squares, double mirrored, double height) {
+    std::mt19937 random(5);
+    std::normal_distribution<double> noise(0, 0.0025);
+    std::uniform_real_distribution<double> place(0, 500);
+    TexelSample s;
+    s.texels = 4 * squares;
+    s.block = 4;
+    TexelFit fit;
+    fit.normal.resize(3 * s.texels);
+    for (std::size_t q = 0; q < squares; ++q) {
+      const double x0 = place(random), y0 = place(random);
+      for (std::size_t k = 0; k < 4; ++k) {
+        const double x = 0.05 * (x0 + static_cast<double>(k % 2)),
+                     y = 0.05 * (y0 - static_cast<double>(k / 2));
+        const double p = height * std::cos(x) * std::cos(y) + noise(random),
+                     v = -height * std::sin(x) * std::sin(y) + noise(random);
+        const std::array<double, 3> n{-p, -mirrored * v, 1};
+        for (std::size_t a = 0; a < 3; ++a)
+          fit.normal[a * s.texels + 4 * q + k] = static_cast<float>(n[a]);
+      }
+    }
+    return arrangement_of_normals(s, fit);
+  };
+  EXPECT_FALSE(looked_at(64, -1, 0.1).sure) << "chance might do so";
+  const auto found = looked_at(1024, -1, 0.1);
+  EXPECT_TRUE(found.sure);
+  EXPECT_NE(found.what.find("negated"), found.what.npos) << found.what;
+  EXPECT_FALSE(looked_at(1024, 1, 0.1).sure);
+  EXPECT_FALSE(looked_at(1024, -1, 0).sure) << "of noise nothing follows";
 }
 
 TEST(Survey, NamesAllImagesThatWereExposedOtherwise) {
