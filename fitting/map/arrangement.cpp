@@ -20,15 +20,16 @@ struct Turn {
   std::array<int, 4> to;  ///< x' = to₀ x + to₁ y, y' = to₂ x + to₃ y
   std::string_view what;
   std::string_view azimuth;  ///< what the azimuth becomes, φ being as given
+  std::string_view vector;   ///< what becomes of x and y
 };
 constexpr std::array<Turn, 7> turns{
-    {{{1, 0, 0, -1}, "negated, or y points down", "−φ"},
-     {{-1, 0, 0, 1}, "counted from −x and backwards", "180° − φ"},
-     {{0, 1, 1, 0}, "counted from y, or x and y are exchanged", "90° − φ"},
-     {{0, -1, -1, 0}, "counted from −y and backwards", "270° − φ"},
-     {{0, -1, 1, 0}, "a quarter turn behind", "φ + 90°"},
-     {{0, 1, -1, 0}, "a quarter turn ahead", "φ − 90°"},
-     {{-1, 0, 0, -1}, "half a turn off", "φ + 180°"}}};
+    {{{1, 0, 0, -1}, "negated, or y points down", "−φ", "(x, −y)"},
+     {{-1, 0, 0, 1}, "counted from −x and backwards", "180° − φ", "(−x, y)"},
+     {{0, 1, 1, 0}, "counted from y, or x and y are exchanged", "90° − φ", "(y, x)"},
+     {{0, -1, -1, 0}, "counted from −y and backwards", "270° − φ", "(−y, −x)"},
+     {{0, -1, 1, 0}, "a quarter turn behind", "φ + 90°", "(−y, x)"},
+     {{0, 1, -1, 0}, "a quarter turn ahead", "φ − 90°", "(y, −x)"},
+     {{-1, 0, 0, -1}, "half a turn off", "φ + 180°", "(−x, −y)"}}};
 
 /// \param vectors  [item][3][run], as light, view and normals are
 void turn(std::vector<float>& vectors, std::size_t run, const Turn& by) {
@@ -92,7 +93,7 @@ std::vector<Arrangement> arrangements(const TexelSample& s) {
                        turn(to.*vectors, vectors == &TexelSample::normal ? texels : run, by);
                    },
                    fmt::format("{} is {}", whose, by.what),
-                   fmt::format("{} becomes {}", key, by.azimuth)});
+                   fmt::format("{} becomes {}, a vector's (x, y) {}", key, by.azimuth, by.vector)});
   };
   // The likeliest first: of several that are equally good the first is named.
   for (const auto& by : turns) add("the light's azimuth", "phi_i", by, {&TexelSample::light});
@@ -194,9 +195,12 @@ OtherArrangement arrangement_of_normals(const TexelSample& s, const TexelFit& re
         (ratio <= 0.5 && less >= 0.8 * n) || (ratio <= 0.8 && less >= n / 2 + 6 * std::sqrt(n) / 2);
     if (!sure || ratio >= found.ratio) continue;
     const auto &one = turns[k], &other = turns[k + 1];
-    found = {fmt::format("the light's azimuth is {}; or it is {}", one.what, other.what),
-             fmt::format("phi_i becomes {} or {}", one.azimuth, other.azimuth),
-             "a curl of the refined normals, which a surface's have not,", ratio, true};
+    found = {
+        fmt::format("the light's azimuth is {}; or it is {}", one.what, other.what),
+        fmt::format("phi_i becomes {}, a vector's (x, y) {}, if the surface then has its bumps and "
+                    "hollows right; else {}, and {}",
+                    one.azimuth, one.vector, other.azimuth, other.vector),
+        "a curl of the refined normals, which a surface's have not,", ratio, true};
   }
   return found;
 }

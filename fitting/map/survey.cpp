@@ -359,9 +359,11 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
   for (const auto& odd : s.odd)
     lines.push_back(fmt::format(
         "{} does not agree with the other images, which leave an rms {} times less "
-        "without it: it is {:.2g} times as bright as they "
-        "predict. Its lamp, direction or place is another, or the model does not fit there",
-        stack.images[odd.image].path, times(odd.ratio), odd.brightness));
+        "without it: {}. Its lamp, direction or place is another, or the model does not fit there",
+        stack.images[odd.image].path, times(odd.ratio),
+        odd.brightness > 0.95 && odd.brightness < 1.05
+            ? "as bright as they predict, so it may have moved"
+            : fmt::format("it is {:.2g} times as bright as they predict", odd.brightness)));
   if (const auto& e = s.exposure) {
     std::vector<std::string> names;
     for (const std::size_t i : e->images) names.push_back(stack.images[i].path);

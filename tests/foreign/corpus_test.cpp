@@ -146,26 +146,16 @@ void expect_bits_of_compiler() {
   }
   Corpus<F> c;
   const std::map<std::string, F (Corpus<F>::*)(F, F)> compiled{
-      {"sums", &Corpus<F>::sums},
-      {"a_constant", &Corpus<F>::a_constant},
-      {"a_branch", &Corpus<F>::a_branch},
-      {"both_sides", &Corpus<F>::both_sides},
-      {"a_choice", &Corpus<F>::a_choice},
-      {"logic", &Corpus<F>::logic},
-      {"a_loop", &Corpus<F>::a_loop},
-      {"a_way_out", &Corpus<F>::a_way_out},
-      {"left_over", &Corpus<F>::left_over},
-      {"a_float_counter", &Corpus<F>::a_float_counter},
-      {"a_table", &Corpus<F>::a_table},
-      {"roots", &Corpus<F>::roots},
-      {"steps", &Corpus<F>::steps},
-      {"bounds", &Corpus<F>::bounds},
-      {"halves", &Corpus<F>::halves},
-      {"remainders", &Corpus<F>::remainders},
-      {"curves", &Corpus<F>::curves},
-      {"angles_of", &Corpus<F>::angles_of},
-      {"calls", &Corpus<F>::calls},
-      {"by_reference", &Corpus<F>::by_reference},
+      {"sums", &Corpus<F>::sums},           {"a_constant", &Corpus<F>::a_constant},
+      {"a_branch", &Corpus<F>::a_branch},   {"both_sides", &Corpus<F>::both_sides},
+      {"a_choice", &Corpus<F>::a_choice},   {"logic", &Corpus<F>::logic},
+      {"a_loop", &Corpus<F>::a_loop},       {"a_way_out", &Corpus<F>::a_way_out},
+      {"left_over", &Corpus<F>::left_over}, {"a_float_counter", &Corpus<F>::a_float_counter},
+      {"a_table", &Corpus<F>::a_table},     {"roots", &Corpus<F>::roots},
+      {"steps", &Corpus<F>::steps},         {"bounds", &Corpus<F>::bounds},
+      {"halves", &Corpus<F>::halves},       {"remainders", &Corpus<F>::remainders},
+      {"curves", &Corpus<F>::curves},       {"angles_of", &Corpus<F>::angles_of},
+      {"calls", &Corpus<F>::calls},         {"by_reference", &Corpus<F>::by_reference},
   };
   for (const auto& [name, f] : compiled) {
     const auto rows = run_function<F>(name, p, angles);

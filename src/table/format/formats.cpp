@@ -91,6 +91,15 @@ void expect_no_foreign_format(const std::string& path, std::string_view head) {
   // A binary table may begin with any byte.
   const bool text =
       std::ranges::none_of(begin, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
+  if (const auto own = begin.find("\"schema\": \"gonio.");
+      text && begin.starts_with("{") && own != begin.npos) {
+    const auto from = own + std::string_view("\"schema\": \"").size();
+    const auto schema = begin.substr(from, begin.find('"', from) - from);
+    throw bad_input(path, "the beginning", "a document of schema " + schema,
+                    schema.starts_with("gonio.stack/")
+                        ? "a table; `gonio fit_map` fits a stack of images"
+                        : "a table");
+  }
   for (const auto& [first, kind] : foreign_beginnings)
     if (((text || first.size() == 4) && begin.starts_with(first)) ||
         (text && first.size() > 6 &&

@@ -241,5 +241,14 @@ TEST(SideFile, ShowsNoControlCharactersOfItsKeys) {
   EXPECT_COMPLAINT(folder / "m", "notes.\\x0a\\x1b[31m: found 1, expected a string");
 }
 
+TEST(ReadTable, NamesADocumentOfGonioAndWhatFitsAStack) {
+  const Folder folder;
+  EXPECT_COMPLAINT(folder.write("stack.json", R"({"schema": "gonio.stack/1", "images": []})"),
+                   "`gonio fit_map` fits a stack");
+  EXPECT_COMPLAINT(folder.write("fit.json", R"({
+  "model": "lambert", "schema": "gonio.fit/1"})"),
+                   "gonio.fit/1");
+}
+
 }  // namespace
 }  // namespace gonio
