@@ -63,15 +63,16 @@ const usual = "lambert+ggx/smith_ggx.correlated/schlick";
 const first_view = () => ({ theta: 45, phi: 0, phid: 90, ev: 0, log: true, slog: false, channel: 1, light: [0.5, 0.6, 0.62], lamp: "", turn: [0.6, 0.45] });
 const settings_of = (values) => Object.entries(values).map(([name, v]) => `${name}=${v.join(",")}`).join(" ");
 const is_model = (item) => item && item.kind === "model";
+const terms_name = (about) => about.name ?? about.spec;
 /// Name that a person gave; without one a model is called by its terms.
-const plain_name = (item) => (!is_model(item) ? item.name : item.name ? `${item.name}${item.changed ? ", changed" : ""}` : item.about.name ?? item.about.spec);
+const plain_name = (item) => (!is_model(item) ? item.name : item.name ? `${item.name}${item.changed ? ", changed" : ""}` : terms_name(item.about));
 /// What an entry is called everywhere, numbered where two would be called the same.
 function label(item) {
   const name = plain_name(item), before = items.slice(0, Math.max(items.indexOf(item), 0)).filter((one) => plain_name(one) === name).length;
   return before ? `${name}, ${before + 1}` : name;
 }
-/// Names of channels: a model has those of its fit, or of the first table beside it that has as many.
-const channels_of = (item) => item.fit?.channels ?? (is_model(item) && items.find((one) => !is_model(one) && one.channels.length === item.channels.length) || item).channels;
+/// Names of channels: a model that was not fitted has those of the first table beside it that has as many.
+const channels_of = (item) => (is_model(item) && !item.fit && items.find((one) => !is_model(one) && one.channels.length === item.channels.length) || item).channels;
 
 /// \param name  that a person gave, or ""
 /// \param fit   what a fit says of it (fitted() in fitting.js), or null
@@ -355,7 +356,7 @@ function draw_plot(figure, { x: [x0, x1], y: [y0, y1], log, x_ticks, curves, lig
   for (const c of curves) {
     let d = "", pen = false;
     for (let i = 0; i < c.x.length; ++i) {
-      const there = Number.isFinite(c.y[i]) && (!log || c.y[i] > 0) && c.x[i] >= x0 - 1e-9 && c.x[i] <= x1 + 1e-9;
+      const there = Number.isFinite(c.y[i]) && (!log || c.y[i] > 0);
       if (there && c.points) svg.append(mark("circle", { cx: px(c.x[i]).toFixed(1), cy: py(c.y[i]).toFixed(1), r: 2.2, style: `fill: var(--c${c.colour})` }));
       else if (there && c.dots) d += `M${px(c.x[i]).toFixed(1)} ${py(c.y[i]).toFixed(1)}h0`;
       else if (there) d += `${pen ? "L" : "M"}${px(c.x[i]).toFixed(1)} ${py(c.y[i]).toFixed(1)}`;

@@ -117,7 +117,7 @@ function fitted(text, name, table, optimum, id, command) {
     if (!key.startsWith("roughness") && (p.status ?? p.ci95)) parameters[key] = v.map((_, c) => [status[c] ?? "free", ...(status[c] === "upper_limit" ? [null, limit[c]] : status[c] === "lower_limit" ? [limit[c], null] : ci[c] ?? [null, null]), reason[c] ?? ""]);
   }
   const said = !unknown.length ? "" : Object.keys(optimum).length ? `Not known: ${unknown.join(", ")}. The value here is one of many that fit as well.` : `The fit has no value for ${unknown.join(", ")}: it begins with another.`;
-  const fit = { id, channels, parameters, said };
+  const fit = { id, parameters, said };
   if (d.residuals) {
     const input = d.input ?? {}, file = String(input.path ?? table?.name ?? "").split("/").at(-1), options = {};
     if (input.mask) options.mask = [input.mask];
@@ -160,7 +160,7 @@ function advice(said) {
   return p;
 }
 function fit_panel({ about, changed, fit }) {
-  const head = `${about.name ?? about.spec} leaves a typical factor of ${times(fit.log_rms)} on ${fit.file}${fit.left_out ? `, without ${fit.left_out}` : ""}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
+  const head = `${terms_name(about)} leaves a typical factor of ${times(fit.log_rms)} on ${fit.file}${fit.left_out ? `, without ${fit.left_out}` : ""}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
   return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...fit.next.map(advice), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
 }
 function comparison_panel(d) {

@@ -122,6 +122,7 @@ def of_the_program(page):
     page.ask("(() => { const r = $('exact-0'); r.value = 0.3, r.dispatchEvent(new Event('change')); })()")
     expect("You have moved its values since." in page.ask("$('fitted').innerText"), "values that have moved since the fit are said to have")
     page.ask("$('undo').click()")
+    expect(page.ask("[$('mask').value, $('words').value]") == ["theta_o > 70", "--robust huber --metric relative --fix f0=0.05"], "undo leaves what is asked")
     link_shows_it(page)
     page.ask("$('words').value = '', $('mask').value = 'theta_o >'")
     said, program = press(page, "fit"), run("fit", "t.csv", "--mask", "theta_o >").stderr.strip()
