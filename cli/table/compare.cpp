@@ -1,4 +1,7 @@
 // gonio compare: how far a model is from a table.
+#include <algorithm>
+#include <filesystem>
+
 #include "answer/model_argument.h"
 #include "cli/line/command.h"
 #include "cli/line/reading.h"
@@ -11,6 +14,7 @@
 #include "table/format/measured_by.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio::cli {
 namespace {
@@ -55,6 +59,19 @@ Exit run_terms(const CompareCall& o) {
   return Exit::done;
 }
 
+/// Keeps those channels of a table that a fit names, where these are some of them.  \return  whether others were left out
+bool keep_channels_of(Table& t, const std::string& model) {
+  if (file_in(model).empty() || !std::filesystem::exists(model)) return false;
+  const auto names = read_fitted_model(model).channels;
+  const auto is_there = [&](const std::string& name) {
+    return std::ranges::find(t.channels, name) != t.channels.end();
+  };
+  if (names.empty() || names.size() >= t.channels.size() || !std::ranges::all_of(names, is_there))
+    return false;
+  pick_channels(t, names);
+  return true;
+}
+
 Exit run(const CompareCall& o) {
   use(o);
   if (foreign::is_name(o.file) || (is_term_name(o.file) && is_term_name(o.model)))
@@ -64,6 +81,7 @@ Exit run(const CompareCall& o) {
   progress("reading " + o.file);
   Table t = read_table(o.file, o.bins);
   take(t, o.measured);
+  const bool in_part = o.measured.channels.empty() && keep_channels_of(t, o.model);
   const auto [m, names, aperture_deg] =
       model_argument(read_as(o.model, o.reading), parse_settings(o.set), t.channels.size());
   const bool as_fitted = !t.aperture && aperture_deg.size() == 2;
@@ -80,6 +98,8 @@ Exit run(const CompareCall& o) {
   if (as_fitted && !o.json)
     say("means over cones of {:.4g}° (light) and {:.4g}° (detector), as in the fit\n",
         aperture_deg[0], aperture_deg[1]);
+  if (in_part && !o.json)
+    say("channels {}, those of {}\n", fmt::to_string(fmt::join(t.channels, ", ")), o.model);
   if (o.json)
     fmt::print("{}", to_json(Comparison{o.file, {to_text(m.model.spec), named_values(m)}, r}));
   else

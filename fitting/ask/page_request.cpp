@@ -1,8 +1,11 @@
 #include "fitting/ask/page_request.h"
 
+#include <algorithm>
+
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json/describe.h"
+#include "base/nearest_names.h"
 #include "base/options.h"
 #include "explore/explored_table.h"
 #include "fitting/choice/document.h"
@@ -69,6 +72,31 @@ std::string compare_for_page(const PageRequest& r,
   return to_json(choice, advise(choice), compared_table(in.table, how.options));
 }
 
+/// Options in the words of the command line, refused as it refuses them.
+HowFitted how_asked(const PageRequest& r) {
+  HowFitted how;
+  NamedWords given(r.options.begin(), r.options.end());
+  std::vector<std::string> names;
+  const auto written = [](std::string_view name) {
+    std::string word = "--" + std::string(name);
+    std::ranges::replace(word, '_', '-');
+    return word;
+  };
+  for_each_option(record_of<HowFitted>, &how, [&](const RecordField& f, void*) {
+    names.push_back(written(f.name));
+    const auto at = given.find(std::string(f.name));
+    if (at == given.end() || !at->second.empty()) return;
+    if (!is_flag(f)) throw wrong_usage(names.back() + " has no value");
+    at->second = {"true"};
+  });
+  for (const auto& [name, words] : given)
+    if (std::ranges::find(names, written(name)) == names.end())
+      refuse_name(written(name), std::vector<std::string_view>(names.begin(), names.end()),
+                  "option");
+  take_words(record_of<HowFitted>, &how, given);
+  return how;
+}
+
 /// The document, and the values that the page draws: also of parameters that the document has none of, being one of many.
 Json fit_for_page(const FitResult& r) {
   Json optimum = Json::object();
@@ -82,8 +110,7 @@ std::string answer_page(const std::string& request,
                         const std::function<void(const std::string&)>& phase) {
   PageRequest r;
   read_record(JsonDocument("the request", request).root(), r);
-  HowFitted how;
-  take_words(record_of<HowFitted>, &how, {r.options.begin(), r.options.end()});
+  const HowFitted how = how_asked(r);
   switch (r.command) {
     case PageCommand::read:
       return line_of(read_for_page(r, how, phase));

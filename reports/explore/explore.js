@@ -55,15 +55,30 @@ const split = (channels, n) => Array.from({ length: channels }, (_, c) => number
 const describe = (handle) => (checked(g.describe(handle)), JSON.parse(answer()));
 
 // ---- what is shown --------------------------------------------------------------------------------------------------------------
-let catalogue, tables = [], page;  // page.items: what the page came with
-let items = [], view, active = 0;
+let catalogue, tables = [], page;  // page: what it came with
+// All that a person sees is made of these and of two fields of text, and state() holds them.
+let items = [], view, active = 0, compared = null;
+const documents = new Map();  // those of fits and comparisons, by their ids: too long for an address
+const usual = "lambert+ggx/smith_ggx.correlated/schlick";
 const first_view = () => ({ theta: 45, phi: 0, phid: 90, ev: 0, log: true, slog: false, channel: 1, light: [0.5, 0.6, 0.62], lamp: "", turn: [0.6, 0.45] });
 const settings_of = (values) => Object.entries(values).map(([name, v]) => `${name}=${v.join(",")}`).join(" ");
 const is_model = (item) => item && item.kind === "model";
+const terms_name = (about) => about.name ?? about.spec;
+/// Name that a person gave; without one a model is called by its terms.
+const plain_name = (item) => (!is_model(item) ? item.name : item.name ? `${item.name}${item.changed ? ", changed" : ""}` : terms_name(item.about));
+/// What an entry is called everywhere, numbered where two would be called the same.
+function label(item) {
+  const name = plain_name(item), before = items.slice(0, Math.max(items.indexOf(item), 0)).filter((one) => plain_name(one) === name).length;
+  return before ? `${name}, ${before + 1}` : name;
+}
+/// Names of channels: a model that was not fitted has those of the first table beside it that has as many.
+const channels_of = (item) => (is_model(item) && !item.fit && items.find((one) => !is_model(one) && one.channels.length === item.channels.length) || item).channels;
 
-function bind(name, spec, values, intervals = {}, channels = 3) {
-  const handle = with_text([spec, typeof values === "string" ? values : settings_of(values)], (s, v) => g.bind(s, v, channels));
-  return { kind: "model", name, intervals, handle, about: describe(handle), visible: true, channels };
+/// \param name  that a person gave, or ""
+/// \param fit   what a fit says of it (fitted() in fitting.js), or null
+function bind(name, spec, values, channels, fit = null) {
+  const handle = with_text([spec, typeof values === "string" ? values : settings_of(values)], (s, v) => g.bind(s, v, channels.length));
+  return { kind: "model", name, fit, changed: false, handle, about: describe(handle), visible: true, channels };
 }
 function hold_table(data) {
   const hold = (text, make_of) => {
@@ -74,42 +89,48 @@ function hold_table(data) {
     return handle;
   };
   const channels = data.channels.length;
-  return { ...data, values: null, file: null, samples: hold(data.samples, (at, bytes) => g.samples(channels, bytes / 4 / (4 + channels), at)),
-    handle: hold(data.values, (at) => g.table(channels, ...data.sizes, at)), visible: true, channels };
+  return { ...data, data, samples: hold(data.samples, (at, bytes) => g.samples(channels, bytes / 4 / (4 + channels), at)),
+    handle: hold(data.values, (at) => g.table(channels, ...data.sizes, at)), visible: true };
 }
 const values_of = (item) => {
   const all = numbers(g.values(item.handle), item.about.parameters.reduce((n, p) => n + p.count, 0));
   return Object.fromEntries(item.about.parameters.map((p) => [p.name, [...all.subarray(p.first, p.first + p.count)]]));
 };
 
-// The whole state as text: for the address, undo and A.
+// The whole state as text: for the address, undo, A and the page that is saved.
 const state = () => JSON.stringify({
-  i: items.map((item) => (is_model(item) ? { n: item.name, s: item.about.spec, v: values_of(item), c: item.channels, o: item.origin, h: item.visible ? 0 : 1 } : { t: tables.indexOf(item), h: item.visible ? 0 : 1 })),
-  a: active, w: view,
+  i: items.map((item) => ({ ...(is_model(item) ? { n: item.name, x: item.changed ? 1 : 0, s: item.about.spec, v: values_of(item), c: item.channels, f: item.fit ?? undefined } : { t: tables.indexOf(item), n: item.name }), h: item.visible ? 0 : 1 })),
+  a: active, w: view, m: $("mask").value, o: $("words").value, k: compared ?? undefined,
 });
-/// \throws Error  where the text names what this page does not have; then nothing has changed
+/// \return  names of tables that the text shows and this page does not hold
+/// \throws Error  where nothing of it can be shown; then nothing has changed
 function restore(text) {
   const s = JSON.parse(text);
-  if (!Array.isArray(s.i) || !s.i.length || s.i.length > colours) throw new Error("found no list of one to eight models and tables");
-  const named = s.i.map((one) => one?.t).filter((t) => t !== undefined);
-  if (new Set(named).size < named.length) throw new Error("found a table twice");
-  const made = [];
+  if (!Array.isArray(s?.i) || !s.i.length || s.i.length > colours) throw new Error("found no list of one to eight models and tables");
+  const list = [], made = [], missing = [];
+  let chosen = null;
   try {
-    for (const one of s.i) {
-      const table = Number.isInteger(one.t) ? tables[one.t] : null;
-      if (!table && typeof one.s !== "string") throw new Error("found an entry that is neither a model nor a table of this page");
-      const origin = page.items[one.o], channels = one.c === 1 || one.c === 3 ? one.c : first_channels();
-      const item = table ?? bind(String(one.n), one.s, Object.fromEntries(Object.entries(one.v ?? {}).map(([name, v]) => [name, v.map(Number)])), origin?.intervals, channels);
-      if (!table) item.origin = one.o, made.push(item);
-      one.item = item;
-    }
+    s.i.forEach((one, k) => {
+      const is_table = Number.isInteger(one?.t);
+      if (!is_table && typeof one?.s !== "string") throw new Error("found an entry that is neither a model nor a table");
+      const item = is_table ? [tables[one.t], ...tables].find((t) => t && (one.n === undefined || t.name === one.n))
+        : bind(String(one.n ?? ""), one.s, Object.fromEntries(Object.entries(one.v ?? {}).map(([name, v]) => [name, v.map(Number)])), channels_in(one.c), one.f && typeof one.f === "object" ? one.f : null);
+      if (!item) return missing.push(String(one.n ?? "a table"));
+      if (!is_table) made.push(item), item.changed = Boolean(one.x);
+      if (list.some(([other]) => other === item)) throw new Error("found a table twice");
+      list.push([item, !one.h]);
+      if (k === s.a) chosen = item;
+    });
+    if (!list.length) throw new Error(`it shows ${missing.join(", ")}, which this page does not hold`);
   } catch (error) {
     made.forEach((item) => g.drop(item.handle));
     throw error;
   }
   items.filter(is_model).forEach((item) => g.drop(item.handle));
-  items = s.i.map((one) => Object.assign(one.item, { visible: !one.h }));
-  active = clamp(Math.trunc(Number(s.a) || 0), 0, Math.max(items.length - 1, 0));
+  items = list.map(([item, visible]) => Object.assign(item, { visible }));
+  active = Math.max(items.indexOf(chosen), 0);
+  compared = s.k && typeof s.k === "object" ? s.k : null;
+  $("mask").value = String(s.m ?? ""), $("words").value = String(s.o ?? "");
   view = first_view();
   for (const name of ["theta", "phi", "phid", "ev", "channel"]) if (Number.isFinite(s.w?.[name])) view[name] = s.w[name];
   view.theta = clamp(view.theta, 0, 89), view.channel = clamp(Math.trunc(view.channel), 0, 2);
@@ -118,13 +139,17 @@ function restore(text) {
   if (Array.isArray(s.w?.turn) && s.w.turn.length === 2 && s.w.turn.every(Number.isFinite)) view.turn = s.w.turn;
   if (Array.isArray(s.w?.light) && s.w.light.length === 3 && s.w.light.every(Number.isFinite) && Math.hypot(...s.w.light) > 1e-3) view.light = s.w.light;
   dirty.light = true, show_all();
+  return missing;
 }
-const first_channels = () => (page.items[0]?.channels.length === 1 ? 1 : 3);
+const channels_in = (c) => (Array.isArray(c) && (c.length === 1 || c.length === 3) ? c.map(String) : c === 1 ? ["f"] : c === 3 ? ["r", "g", "b"] : first_channels());
+const first_channels = () => (tables[0] ?? page.items[0])?.channels ?? ["r", "g", "b"];
+/// A page begins with what it was given, and with a model for a table that has none.
 function first_state() {
-  const list = page.items.map((one, o) => (one.kind === "table" ? { t: tables.findIndex((t) => t.place === o), h: 0 } : { n: one.name, s: one.spec, v: one.values, c: one.channels.length, o, h: 0 }));
-  if (!list.length) list.push({ n: "model", s: "lambert+ggx/smith_ggx.correlated/schlick", v: {}, h: 0 });
-  const a = Math.max(list.findIndex((one) => one.s), 0);
-  return JSON.stringify({ i: list, a, w: first_view() });
+  if (page.state) return page.state;
+  const list = page.items.map((one, k) => (one.kind === "table" ? { t: tables.findIndex((t) => t.data === one), n: one.name }
+    : { n: one.name, s: one.spec, v: one.values, c: one.channels, f: one.document ? fitted(one.document, one.name, null, {}, `given ${k}`).fit ?? undefined : undefined }));
+  if (!list.some((one) => one.s) && list.length < colours) list.push({ s: usual });
+  return JSON.stringify({ i: list, a: Math.max(list.findIndex((one) => one.s), 0) });
 }
 
 let past = [], future = [], kept, began, held = null;
@@ -135,7 +160,7 @@ function finish() {
   if (now === kept) return;
   past.push(kept), future = [], kept = now;
   if (past.length > 200) past.shift();
-  to_address(), show_buttons();
+  to_address(), show_names(), show_buttons();
 }
 let own_address = "";
 function to_address() {
@@ -146,35 +171,48 @@ function travel(from, to) {
   if (!from.length) return;
   to.push(kept), kept = from.pop();
   restore(kept), to_address(), show_buttons();
+  for (const [ended, other] of [["undo", "redo"], ["redo", "undo"]]) if (document.activeElement === $(ended) && $(ended).disabled) $(other).focus();
 }
 function show_buttons() {
   $("undo").disabled = !past.length, $("redo").disabled = !future.length;
   $("remove").disabled = items.length < 2;
   for (const id of ["copy-spec", "copy-json"]) $(id).disabled = !is_model(items[active]);
-  $("copy-fit").disabled = !items.some(comparable);
+  $("copy-fit").disabled = !fit_pair();
   $("add").disabled = items.length >= colours;
-  show_fitting();
+  show_fitting(), show_panel();
 }
 
 // ---- the side: surfaces, terms, sliders -----------------------------------------------------------------------------------------
 function show_all() {
   show_surfaces(), show_model(), show_view(), show_buttons(), make_pictures(), redraw();
 }
+/// Fills a box anew; what had the focus in it has it again.
+function refill(box, nodes) {
+  const had = box.contains(document.activeElement) && document.activeElement.id;
+  box.replaceChildren(...nodes);
+  if (had) $(had)?.focus();
+}
+let names = "";
+/// A name follows from what an entry is now: where one has become another, all that is labelled is so anew.
+function show_names() {
+  if (names !== items.map(label).join("\n")) show_surfaces(), make_pictures(), redraw();
+}
 function show_surfaces() {
-  $("surfaces").replaceChildren(...items.map((item, i) => {
-    const pick = make("input", { type: "radio", name: "active", id: `pick-${i}` }), see = make("input", { type: "checkbox", "aria-label": `draw ${item.name}` });
+  names = items.map(label).join("\n");
+  refill($("surfaces"), items.map((item, i) => {
+    const pick = make("input", { type: "radio", name: "active", id: `pick-${i}` }), see = make("input", { type: "checkbox", id: `see-${i}`, "aria-label": `draw ${label(item)}` });
     pick.checked = i === active, see.checked = item.visible;
-    pick.onchange = () => { active = i; show_model(), show_buttons(), make_pictures(), redraw(), finish(); };
+    pick.onchange = () => { active = i; show_model(), show_view(), show_buttons(), make_pictures(), redraw(), finish(); };
     see.onchange = () => { item.visible = see.checked; make_pictures(), redraw(), finish(); };
-    const label = make("label", { for: `pick-${i}` }, item.name, make("small", {}, is_model(item) ? [item.about.spec, page.items[item.origin]?.said].filter(Boolean).join(". ") : item.said));
-    return make("div", { class: "surface" }, see, make("span", { class: "dot", style: `background: var(--c${i})` }), pick, label);
+    const named = make("label", { for: `pick-${i}` }, label(item), make("small", {}, is_model(item) ? [item.about.spec, item.fit?.said].filter(Boolean).join(". ") : item.said));
+    return make("div", { class: "surface" }, see, make("span", { class: "dot", style: `background: var(--c${i})` }), pick, named);
   }));
 }
 const roles = [["ndf", "Distribution"], ["masking", "Masking"], ["fresnel", "Fresnel"]];
 const term_of = (id) => catalogue.terms.find((t) => t.id === id);
 /// A list of terms of one role, and who ships the one that is chosen.
 function chooser(role, name, chosen, choose) {
-  const select = make("select", { "aria-label": name });
+  const select = make("select", { "aria-label": name, id: `term-${name}` });
   if (role === "diffuse") select.append(make("option", { value: "" }, "none"));
   for (const t of catalogue.terms) if (t.role === role) select.append(make("option", { value: t.short }, t.ships ? `${t.title} – ${t.ships}` : t.title));
   const term = chosen && term_of(chosen);
@@ -188,16 +226,17 @@ function swap(parts) {
   const spec = parts.filter((p) => p[0] !== "").map((p) => p.map(short).join("/")).join("+");
   try {
     with_text([spec], (s) => g.swap_model(item.handle, s));
-    item.about = describe(item.handle);
+    // It is another model: no name and no fit of the one before holds for it.
+    Object.assign(item, { about: describe(item.handle), name: "", fit: null, changed: false });
     say("");
   } catch (error) {
     say(`${spec}: ${error.message}`, true);
   }
-  show_surfaces(), show_model(), redraw(), finish();
+  show_all(), finish();
 }
 function show_model() {
   const item = items[active];
-  if (!is_model(item)) return $("model").replaceChildren(make("p", { class: "muted small" }, "A table has no sliders. Choose a model to move it."));
+  if (!is_model(item)) return refill($("model"), [make("p", { class: "muted small" }, "A table has no sliders. Choose a model to move it.")]);
   const terms = make("details", { class: "terms" }, make("summary", {}, "Terms"));
   terms.open = $("model").querySelector(".terms")?.open ?? innerWidth > 900;
   const parts = item.about.parts, diffuse = parts.findIndex((p) => p.length === 1), nodes = [];
@@ -212,42 +251,53 @@ function show_model() {
     const lobe = parts.slice(0, k).filter((p) => p.length === 3).length, ending = lobe ? ` ${lobe + 1}` : "";
     roles.forEach(([role, name], r) => terms.append(chooser(role, name + ending, part[r], (to) => swap(replaced(k, part.map((id, j) => (j === r ? to : id)))))));
   });
+  const lobe = ["ggx", "smith_ggx.correlated", "schlick"], lobes = parts.filter((p) => p.length === 3).length, button = (id, text, to) => Object.assign(make("button", { id }, text), { onclick: () => swap(to) });
+  terms.append(make("div", { class: "controls" }, button("add-lobe", "Add a lobe", [...parts, lobe]), ...(lobes > 1 || lobes && lobes < parts.length ? [button("take-lobe", "Take the last lobe away", parts.slice(0, -1))] : [])));
   nodes.push(terms);
   for (const p of item.about.parameters) for (let c = 0; c < p.count; ++c) nodes.push(slider(item, p, c));
-  $("model").replaceChildren(...nodes);
+  refill($("model"), nodes);
+}
+/// What a fit says of one value: in words, and between which ends it lies, if it says so.
+function known(found, p) {
+  const [status, low, high, reason] = found, why = reason ? `; ${reason}` : "", ends = [low, high].map((v) => Number.isFinite(v));
+  if (status === "fixed") return ["held by the fit"];
+  if (status === "at_bound") return [`fit: at the end of its range, and the data push beyond it${why}`];
+  if (status === "not_identifiable") return [`fit: not known${why}`];
+  if (status === "unbounded" || !ends.some(Boolean)) return [reason ? `fit: ${reason}` : ""];
+  const words = ends[0] && ends[1] ? `95 % interval ${shown(low)} to ${shown(high)}` : ends[1] ? `at most ${shown(high)} (95 %)` : `at least ${shown(low)} (95 %)`;
+  return [`fit: ${words}${why}`, ends[0] ? low : p.from, ends[1] ? high : p.to];
 }
 function slider(item, p, c) {
   const to_scale = (v) => clamp(p.log ? Math.log(v / p.from) / Math.log(p.to / p.from) : (v - p.from) / (p.to - p.from || 1), 0, 1);
   const from_scale = (x) => (p.log ? p.from * (p.to / p.from) ** x : p.from + (p.to - p.from) * x);
-  const name = p.count > 1 ? `${p.name}.${"rgb"[c]}` : p.name, id = `value-${p.first + c}`;
-  const range = make("input", { type: "range", id, min: 0, max: steps, step: 1 }), exact = make("input", { type: "number", step: "any", "aria-label": `${name}, exact value` });
-  const root = make("span"), now = () => numbers(g.values(item.handle) + 8 * (p.first + c), 1)[0];
+  const name = p.count > 1 ? `${p.name}.${channels_of(item)[c]}` : p.name, id = `value-${p.first + c}`;
+  const range = make("input", { type: "range", id, min: 0, max: steps, step: 1 }), exact = make("input", { type: "number", step: "any", id: `exact-${p.first + c}`, "aria-label": `${name}, exact value` });
+  const root = make("span"), value = (k) => numbers(g.values(item.handle) + 8 * (p.first + k), 1), now = () => value(c)[0];
   const tell = () => {
     exact.value = shown(now()), range.setAttribute("aria-valuetext", shown(now()));
     if (p.roughness) root.textContent = `${p.roughness} ${shown(g.roughness(now()))}; `;
   };
   const show = () => { range.value = Math.round(steps * to_scale(now())), tell(); };
-  const move = (v) => { numbers(g.values(item.handle) + 8 * (p.first + c), 1)[0] = clamp(v, p.low, p.high); };
+  const move = (k, v) => { value(k)[0] = clamp(v, p.low, p.high), item.changed = true; };
   range.oninput = () => {
     const factor = from_scale(range.value / steps) / now();
-    move(from_scale(range.value / steps)), tell(), redraw(item);
+    move(c, from_scale(range.value / steps)), tell(), redraw(item);
     if (!$("together").checked || p.count === 1 || !Number.isFinite(factor)) return;
     // Channels that were 0 follow none.
-    for (let k = 0; k < p.count; ++k) if (k !== c) numbers(g.values(item.handle) + 8 * (p.first + k), 1)[0] = clamp(numbers(g.values(item.handle) + 8 * (p.first + k), 1)[0] * factor, p.low, p.high);
+    for (let k = 0; k < p.count; ++k) if (k !== c) move(k, value(k)[0] * factor);
     for (const other of document.querySelectorAll(".slider")) other.show?.();
   };
   range.onchange = finish;
-  exact.onchange = () => { if (exact.value !== "" && Number.isFinite(Number(exact.value))) move(Number(exact.value)); show(), redraw(item), finish(); };
+  exact.onchange = () => { if (exact.value !== "" && Number.isFinite(Number(exact.value))) move(c, Number(exact.value)); show(), redraw(item), finish(); };
   show();
-  const track = make("div", { class: "track" }, range), interval = item.intervals?.[p.name]?.[c];
-  let said = c === 0 ? p.meaning : "";
-  if (interval && interval.every(Number.isFinite)) {
-    const [low, high] = interval.map(to_scale), bar = make("span", { class: "interval" });
+  const track = make("div", { class: "track" }, range), found = item.fit?.parameters?.[p.name]?.[c], [words, ...ends] = found ? known(found, p) : [""];
+  if (ends.length) {
+    const [low, high] = ends.map(to_scale), bar = make("span", { class: "interval" });
     // As the thumb moves, whose middle stays half its width within.
     bar.style.left = `calc(8px + (100% - 16px) * ${low})`, bar.style.width = `calc((100% - 16px) * ${high - low})`;
     track.append(bar);
-    said += `${said ? "; " : ""}fit: 95 % interval ${shown(interval[0])} to ${shown(interval[1])}`;
   }
+  const said = [c === 0 ? p.meaning : "", words].filter(Boolean).join("; ");
   return Object.assign(make("div", { class: "slider" }, make("label", { for: id }, name), track, exact, said || p.roughness ? make("small", {}, root, said) : ""), { show: () => document.activeElement !== range && show() });
 }
 
@@ -263,7 +313,7 @@ function become(name, added = false) {
   const found = materials().find(([n]) => n === name);
   if (!found) return;
   try {
-    const item = bind(found[0], found[1], found[2], {}, items.find(is_model)?.channels ?? first_channels());
+    const item = bind(found[0], found[1], found[2], items[active].channels);
     if (added) active = items.push(item) - 1;
     else g.drop(items[active].handle), item.visible = items[active].visible, items[active] = item;
     say("");
@@ -277,9 +327,15 @@ function become(name, added = false) {
 const edge = { left: 46, right: 10, top: 12, bottom: 30 };
 function ticks_of(low, high, log) {
   const all = [];
-  if (log) {
-    const a = Math.ceil(Math.log10(low) - 1e-9), b = Math.floor(Math.log10(high) + 1e-9), each = Math.max(1, Math.ceil((b - a) / 6));
-    for (let k = a; k <= b; k += each) all.push([10 ** k, k >= 0 && k < 4 ? String(10 ** k) : `10${String(k).replace(/./g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)])}`]);
+  if (log && high >= 4 * low) {
+    const decades = Math.log10(high / low), a = Math.ceil(Math.log10(low) - 1e-9), b = Math.floor(Math.log10(high) + 1e-9), each = Math.max(1, Math.ceil((b - a) / 6));
+    const power = (k) => `10${String(k).replace(/./g, (c) => "⁻⁰¹²³⁴⁵⁶⁷⁸⁹"["-0123456789".indexOf(c)])}`, plain = (v) => String(Number(v.toPrecision(1)));
+    // Few decades have lines within them, so that each value can be read between two.
+    const within = decades >= 3 ? [1] : decades >= 1.2 ? [1, 2, 5] : [1, 2, 3, 5, 7], whole = within.length === 1;
+    for (let k = whole ? a : a - 1; k <= b; k += whole ? each : 1) for (const m of within) {
+      const v = m * 10 ** k;
+      if (v >= low * (1 - 1e-9) && v <= high * (1 + 1e-9)) all.push([v, k >= (whole ? 0 : -3) && k < 4 ? plain(v) : `${m > 1 ? `${m}·` : ""}${power(k)}`]);
+    }
     return all;
   }
   const raw = (high - low) / 6, power = 10 ** Math.floor(Math.log10(raw)), step = [1, 2, 5, 10].map((m) => m * power).find((s) => s >= raw);
@@ -319,7 +375,7 @@ function read_out(figure, at, where, entries) {
   box.replaceChildren(where, ...entries.flatMap(([name, colour, v, unit]) => [" ", make("span", { class: "entry" }, make("span", { style: `color: var(--c${colour})` }, "● "), `${name} `, make("b", {}, shown(v)), unit ?? "")]));
 }
 const nearest = (list, x) => list.reduce((best, v, i) => (Math.abs(v - x) < Math.abs(list[best] - x) ? i : best), 0);
-const channel_of = (item) => Math.min(view.channel, item.channels - 1);
+const channel_of = (item) => Math.min(view.channel, item.channels.length - 1);
 const drawn = () => items.map((item, i) => [item, i]).filter(([item]) => item.visible);
 
 function cut_angles() {
@@ -336,9 +392,9 @@ function evaluate_cut() {
   cuts = { angles, curves: [] };
   for (const [item, i] of drawn()) {
     const channels = split(checked(g.cut(item.handle, view.theta, view.phi, angles.length, room.x, room.f)), angles.length);
-    cuts.curves.push({ name: item.name, colour: i, x: angles, y: channels[channel_of(item)], channels });
+    cuts.curves.push({ name: label(item), colour: i, x: angles, y: channels[channel_of(item)], channels });
     const own = (item.cuts ?? []).find((c) => Math.abs(c.theta_i - view.theta) <= 0.75);
-    if (own) cuts.curves.push({ name: `${item.name}, its own values at ${degrees(own.theta_i)}`, colour: i, x: own.theta_o, y: own.f[channel_of(item)], points: true });
+    if (own) cuts.curves.push({ name: `${label(item)}, its own values at ${degrees(own.theta_i)}`, colour: i, x: own.theta_o, y: own.f[channel_of(item)], points: true });
   }
 }
 function draw_cut() {
@@ -381,8 +437,11 @@ function draw_measured() {
   }
   $("measured").hidden = !curves.length;
   if (!(high > 0)) return;
-  low = 10 ** Math.floor(Math.log10(Math.max(low, high * 1e-6))), high = 10 ** Math.ceil(Math.log10(high));
-  const ends = [Math.log10(low), Math.log10(high)];
+  // All that the tables have, and a model's values up to a factor of 1000 beyond; others stand at the edge.
+  const measured = curves.flatMap((c) => c.x), least = 10 ** Math.min(...measured), most = 10 ** Math.max(...measured);
+  low = 10 ** Math.floor(Math.log10(Math.max(low, least / 1000)) + 1e-9), high = 10 ** Math.ceil(Math.log10(Math.min(high, most * 1000)) - 1e-9);
+  const ends = [Math.log10(low), Math.log10(high)], beyond = curves.reduce((n, c) => n + c.y.filter((v) => v < low || v > high).length, 0);
+  $("measured").querySelector(".readout").textContent = beyond ? `${beyond} of the model's values lie further away: they are drawn at the edge.` : "";
   curves.push({ colour: active, x: ends, y: [low, high], dashed: true });
   draw_plot($("measured"), { x: ends, y: [low, high], log: true, x_ticks: ticks_of(low, high, true).map(([v, text]) => [Math.log10(v), text]), curves });
 }
@@ -392,13 +451,13 @@ function evaluate_albedo() {
   albedos = { angles: albedo_angles, curves: [] };
   for (const [item, i] of drawn()) {
     if (!is_model(item)) {
-      if (item.albedo.length) albedos.curves.push({ name: item.name, colour: i, x: item.albedo.map((a) => a.theta_i), y: item.albedo.map((a) => a.value[channel_of(item)] ?? NaN), points: true });
+      if (item.albedo.length) albedos.curves.push({ name: label(item), colour: i, x: item.albedo.map((a) => a.theta_i), y: item.albedo.map((a) => a.value[channel_of(item)] ?? NaN), points: true });
       continue;
     }
     for (const dashed of items[active] === item ? [false, true] : [false]) {
       numbers(room.x, n).set(albedo_angles);
       const e = split(checked(g.albedo(item.handle, n, room.x, dashed, room.f)), n);
-      albedos.curves.push({ name: dashed ? `${item.name}, first lobe with F = 1` : item.name, colour: i, x: albedo_angles, y: e[channel_of(item)], channels: e, dashed, item });
+      albedos.curves.push({ name: dashed ? `${label(item)}, first lobe with F = 1` : label(item), colour: i, x: albedo_angles, y: e[channel_of(item)], channels: e, dashed, item });
     }
   }
 }
@@ -461,17 +520,17 @@ function draw_lobe() {
 // ---- pictures -------------------------------------------------------------------------------------------------------------------
 let slices = new Map();
 /// A table that the model which is moved can be held against.
-const comparable = (item) => !is_model(item) && is_model(items[active]) && items[active].channels === item.channels;
+const comparable = (item) => !is_model(item) && is_model(items[active]) && items[active].channels.length === item.channels.length;
 /// A canvas for each surface that is drawn, and of the model that is moved beside each table their ratio.
 function make_pictures() {
   const canvas = (id, size, name, colour, what) => {
     const picture = make("canvas", { id, width: size, height: size, role: "img", "aria-label": `${what} of ${name}` });
     return make("figure", {}, picture, make("figcaption", {}, make("span", { style: `color: var(--c${colour})` }, "● "), name));
   };
-  $("spheres").querySelector(".pictures").replaceChildren(...drawn().map(([item, i]) => canvas(`sphere-${i}`, sphereSize, item.name, i, "Lit sphere")));
+  $("spheres").querySelector(".pictures").replaceChildren(...drawn().map(([item, i]) => canvas(`sphere-${i}`, sphereSize, label(item), i, "Lit sphere")));
   $("slices").querySelector(".pictures").replaceChildren(
-    ...drawn().map(([item, i]) => canvas(`slice-${i}`, sliceSize, item.name, i, "Image slice")),
-    ...drawn().filter(([item]) => comparable(item)).map(([item, i]) => canvas(`ratio-${i}`, mapSize, `the model over ${item.name} at its samples: blue too dark, orange too bright, by a factor of 2 or more where full`, i, "Ratio")));
+    ...drawn().map(([item, i]) => canvas(`slice-${i}`, sliceSize, label(item), i, "Image slice")),
+    ...drawn().filter(([item]) => comparable(item)).map(([item, i]) => canvas(`ratio-${i}`, mapSize, `the model over ${label(item)} at its samples: blue too dark, orange too bright, by a factor of 2 or more where full`, i, "Ratio")));
   for (const picture of $("spheres").querySelectorAll("canvas")) picture.onpointerdown = picture.onpointermove = (e) => {
     if (e.type === "pointerdown") picture.setPointerCapture(e.pointerId);
     if (!e.buttons) return;
@@ -484,7 +543,7 @@ function make_pictures() {
   for (const [item, i] of drawn()) $(`slice-${i}`).onpointermove = (e) => {
     const box = e.target.getBoundingClientRect(), x = clamp(Math.floor((e.clientX - box.left) / box.width * sliceSize), 0, sliceSize - 1), y = clamp(Math.floor((e.clientY - box.top) / box.height * sliceSize), 0, sliceSize - 1);
     const f = slices.get(item);
-    if (f) read_out($("slices"), y * sliceSize + x, `θh ${degrees((x + 0.5) / sliceSize * 90)}, θd ${degrees((sliceSize - y - 0.5) / sliceSize * 90)}`, f.map((channel, c) => [`${item.name} ${f.length > 1 ? "rgb"[c] : ""}`, i, channel[y * sliceSize + x], " 1/sr"]));
+    if (f) read_out($("slices"), y * sliceSize + x, `θh ${degrees((x + 0.5) / sliceSize * 90)}, θd ${degrees((sliceSize - y - 0.5) / sliceSize * 90)}`, f.map((channel, c) => [`${label(item)} ${f.length > 1 ? channels_of(item)[c] : ""}`, i, channel[y * sliceSize + x], " 1/sr"]));
   };
 }
 function put(id, size) {
@@ -532,12 +591,12 @@ function show_facts() {
     const of = (dashed) => albedos.curves.find((c) => c.item === model && Boolean(c.dashed) === dashed), all = of(false), white = of(true);
     if (all && white) {
       const at = nearest(albedo_angles, view.theta);
-      lines.push(`${model.name} at θi ${degrees(albedo_angles[at])}: albedo ${all.channels.map((e) => shown(Number(e[at].toPrecision(3)))).join(", ")}; ${model.about.parts.some((p) => p.length === 3) ? `its first lobe alone would reflect ${shown(Number(white.channels[0][at].toPrecision(3)))} with F = 1, the rest is lost between facets` : "it has no lobe"}.`);
+      lines.push(`${label(model)} at θi ${degrees(albedo_angles[at])}: albedo ${all.channels.map((e) => shown(Number(e[at].toPrecision(3)))).join(", ")}; ${model.about.parts.some((p) => p.length === 3) ? `its first lobe alone would reflect ${shown(Number(white.channels[0][at].toPrecision(3)))} with F = 1, the rest is lost between facets` : "it has no lobe"}.`);
     }
     for (const table of items) if (comparable(table)) {
       checked(g.difference(model.handle, table.samples, room.f, room.rgba)), put(`ratio-${items.indexOf(table)}`, mapSize);
       const [n, typical, worst, h, d] = numbers(room.f, 5);
-      lines.push(n ? `${model.name} beside ${table.name}: typical factor ×/÷ ${typical.toFixed(3)} over ${n} values; worst place θh ${degrees(h)}, θd ${degrees(d)}, where the model is ${worst > 1 ? `${shown(Number(worst.toPrecision(3)))} times too bright` : `${shown(Number((1 / worst).toPrecision(3)))} times too dark`}.${sphere_words(model, table)}` : `${model.name} and ${table.name} have no value in common.`);
+      lines.push(n ? `${label(model)} beside ${label(table)}: typical factor ×/÷ ${typical.toFixed(3)} over ${n} values; worst place θh ${degrees(h)}, θd ${degrees(d)}, where the model is ${worst > 1 ? `${shown(Number(worst.toPrecision(3)))} times too bright` : `${shown(Number((1 / worst).toPrecision(3)))} times too dark`}.${sphere_words(model, table)}` : `${label(model)} and ${label(table)} have no value in common.`);
     }
   }
   $("facts").replaceChildren(...lines.map((line) => make("p", {}, line)));
@@ -570,9 +629,13 @@ function safely(call) {
 function show_view() {
   for (const [id, unit] of [["theta", "°"], ["phi", "°"], ["phid", "°"], ["ev", " EV"]]) {
     $(id).value = view[id];
-    document.querySelector(`output[for="${id}"]`).textContent = `${Number(Number(view[id]).toFixed(2))}${unit}`;
+    const said = `${Number(Number(view[id]).toFixed(2))}${unit}`;
+    document.querySelector(`output[for="${id}"]`).textContent = said, $(id).setAttribute("aria-valuetext", said);
   }
-  $("log").checked = view.log, $("slog").checked = view.slog, $("channel").value = view.channel, $("lamp").value = view.lamp;
+  // Channels are called as those of what is chosen.
+  const all = channels_of([items[active], ...items].reduce((a, b) => (b.channels.length > a.channels.length ? b : a)));
+  $("channel").replaceChildren(...all.map((name, c) => make("option", { value: c }, { r: "red", g: "green", b: "blue" }[name] ?? name)));
+  $("log").checked = view.log, $("slog").checked = view.slog, $("channel").value = Math.min(view.channel, all.length - 1), $("lamp").value = view.lamp;
 }
 function turn_light(theta) {
   view.theta = clamp(Math.round(2 * Math.abs(theta)) / 2, 0, 89);
@@ -586,8 +649,8 @@ function connect() {
   for (const id of ["log", "slog"]) $(id).onchange = () => { view[id] = $(id).checked; redraw(), finish(); };
   $("lamp").onchange = () => { view.lamp = $("lamp").value, dirty.light = true, redraw(), finish(); };
   $("channel").onchange = () => { view.channel = Number($("channel").value); redraw(), finish(); };
-  $("add").append(make("option", { value: "" }, "a model …"), ...materials().map(([name]) => make("option", { value: name }, name)));
-  $("add").onchange = () => { become($("add").value, true), $("add").value = ""; };
+  $("what").append(...materials().map(([name]) => make("option", { value: name }, name)));
+  $("add").onclick = () => become($("what").value, true);
   $("remove").onclick = () => { if (is_model(items[active])) g.drop(items[active].handle); items.splice(active, 1), active = Math.min(active, items.length - 1), show_all(), finish(); };
   $("undo").onclick = safely(() => travel(past, future));
   $("redo").onclick = safely(() => travel(future, past));
@@ -597,6 +660,8 @@ function connect() {
   const hold = safely(() => { if (held === null) held = state(), restore(a), say("This is A."); });
   const release = safely(() => { if (held !== null) { const back = held; restore(back), held = null, say(""); } });
   $("compare").onpointerdown = hold, $("compare").onpointerup = $("compare").onpointerleave = $("compare").onpointercancel = release;
+  $("compare").onkeydown = (e) => { if (e.key === " " || e.key === "Enter") e.preventDefault(), hold(); };
+  $("compare").onkeyup = $("compare").onblur = release;
   addEventListener("blur", release);
   const typing = (e) => e.target.matches?.("select, textarea, input[type=number], #fitting input");
   addEventListener("keydown", (e) => {
@@ -608,9 +673,12 @@ function connect() {
   addEventListener("hashchange", safely(() => { if (location.hash !== own_address) from_address(), finish(); }));
 
   $("copy-spec").onchange = () => { copy(commands[$("copy-spec").value]()), $("copy-spec").value = ""; };
-  $("copy-fit").onclick = () => copy(fit_command());
+  $("copy-fit").onclick = safely(() => copy(fit_command()));
   $("copy-json").onclick = () => copy(document_text());
-  $("copy-address").onclick = () => copy(location.href);
+  $("copy-address").onclick = () => {
+    const dropped = items.filter((item) => item.dropped).map(label).join(", ");
+    copy(location.href, dropped && ` The address does not hold ${dropped}, as "Save page" does.`);
+  };
   // A reading under the pointer in both views of the cut; a drag turns the light.
   const part_of = (e) => { const box = e.currentTarget.getBoundingClientRect(); return (e.clientX - box.left - edge.left) / (box.width - edge.left - edge.right); };
   const cut_x = (e) => -90 + part_of(e) * 180;
@@ -658,23 +726,18 @@ const commands = {
   gltf: () => exported("gltf", "gltf"), mitsuba: () => exported("mitsuba", "xml"), open_pbr: () => exported("open_pbr", "mtlx"),
 };
 const exported = (target, ending) => `printf '%s' '${JSON.stringify(JSON.parse(document_text()))}' > model.json\ngonio export model.json --to ${target} -o model.${ending}`;
-/// Fits the model that is moved to the first table beside it.
-function fit_command() {
-  const word = (name, text = name.startsWith("-") ? `./${name}` : name) => (/^[\w./+,-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
-  return `gonio fit ${word(items.find(comparable).name)} --model ${items[active].about.spec} -o fit.json`;
-}
 /// A document that gonio reads as it reads a fit's.
 function document_text() {
-  const item = items[active], channels = item.channels === 1 ? ["f"] : ["r", "g", "b"];
+  const item = items[active], channels = channels_of(item);
   const parameters = Object.fromEntries(Object.entries(values_of(item)).map(([name, v]) => [name, { value: v.length === 1 ? v[0] : v }]));
   return JSON.stringify({ schema: "gonio.fit/1", model: item.about.spec, channels, parameters }, null, 1);
 }
-function copy(text) {
+function copy(text, more = "") {
   const box = $("copied");
   box.hidden = false, box.value = text, box.select();
-  const by_hand = () => say("Select the text below the buttons to copy it.");
+  const by_hand = () => say(`Select the text below the buttons to copy it.${more}`);
   if (!navigator.clipboard) return by_hand();
-  navigator.clipboard.writeText(text).then(() => say("Copied."), by_hand);
+  navigator.clipboard.writeText(text).then(() => say(`Copied.${more}`), by_hand);
 }
 /// A plot that stands by itself: with the colours that it has here.
 function svg_text(id) {
@@ -705,11 +768,12 @@ function from_address() {
   const text = location.hash.slice(1);
   if (!text) return false;
   try {
-    restore(decodeURIComponent(text));
-    say("");
+    const missing = restore(decodeURIComponent(text));
+    say(missing.length ? `The address shows ${missing.join(", ")}, too, which this page does not hold${can_fit ? ": drop it here" : ""}.` : "", missing.length > 0);
     return true;
   } catch (error) {
-    say(`The address cannot be shown: ${error.message}`, true);
+    restore(kept ?? began);
+    say(`The address cannot be shown: ${error instanceof TypeError || error instanceof SyntaxError || error instanceof URIError ? "it was not made by a page of gonio explore" : error.message}`, true);
     return false;
   }
 }
@@ -720,18 +784,14 @@ function from_address() {
     checked(g.catalogue());
     catalogue = JSON.parse(answer());
     $("lamp").append(make("option", { value: "" }, "one, where you drag it"), ...lamps().map((name) => make("option", { value: name }, name)));
-    page.items.forEach((data, place) => { if (data.kind === "table") tables.push({ ...hold_table(data), place }); });
+    for (const data of page.items) if (data.kind === "table") tables.push(hold_table(data));
+    for (const [id, text] of Object.entries(page.documents ?? {})) documents.set(id, text);
     document.querySelector(".explorer").hidden = false;
     say("");
     began = first_state();
-    if (!from_address()) {
-      const said = $("status").textContent;
-      restore(began);
-      if (said) say(said, true);
-    }
+    if (!from_address() && !items.length) restore(began);
     kept = state();
     connect(), show_buttons();
-    show_document(page.items.find((data) => data.document));
   } catch (error) {
     say(`This page could not start: ${error.message}`, true);
   }

@@ -10,6 +10,7 @@ async function ask(request, files) {
   let worker, address;
   try {
     show_fitting(), show(mine.what);
+    if (document.activeElement?.disabled) $("cancel").focus();
     const module = fit_module ??= await WebAssembly.compile(await unpacked("fit-module"));
     address = URL.createObjectURL(new Blob([$("worker").textContent], { type: "text/javascript" }));
     return await new Promise((done, fail) => {
@@ -21,38 +22,47 @@ async function ask(request, files) {
         else if (data.code === 0) done(data.text);
         else fail(new Error(data.code > 0 ? data.text : `The fit stopped: ${data.text}. Try again, or with a smaller table.`));
       };
-      worker.postMessage({ module, request: JSON.stringify(request), files });
+      worker.postMessage({ module, request: JSON.stringify(request), files }, Object.values(files).map((bytes) => bytes.buffer));
     });
   } finally {
     worker?.terminate(), address && URL.revokeObjectURL(address), clearInterval(clock), job = null, show_fitting();
   }
 }
-/// What fails is said, and does not end the page.
+/// What fails is said, and does not end the page.  The focus is in the end where it was, or where the next step is.
 const carefully = (call) => async (...what) => {
+  const from = document.activeElement;
   try { await call(...what); } catch (error) { say(error.message, error.message !== "Cancelled."); }
+  if ([document.body, $("cancel")].includes(document.activeElement) && from !== document.body) (from.isConnected && !from.disabled ? from : $("fit")).focus();
 };
 /// The table and the model that a fit is of: what is chosen, and the first beside it that has as many channels.
 function fit_pair() {
-  const chosen = items[active], other = is_model(chosen) ? items.find(comparable) : items.find((item) => is_model(item) && item.channels === chosen.channels);
+  const chosen = items[active], other = is_model(chosen) ? items.find(comparable) : items.find((item) => is_model(item) && item.channels.length === chosen.channels.length);
   return other && (is_model(chosen) ? [other, chosen] : [chosen, other]);
 }
+function some_pair() {
+  const pair = fit_pair();
+  if (!pair) throw new Error(no_pair);
+  return pair;
+}
+const no_pair = "A fit needs a table and a model with as many channels: add one.";
 function show_fitting() {
   if (!can_fit) return;
   $("fitting").hidden = !items.some((item) => !is_model(item));
   $("fit").disabled = $("choose").disabled = Boolean(job) || !fit_pair();
   $("cancel").hidden = $("phase").hidden = !job;
+  $("why").textContent = no_pair, $("why").hidden = Boolean(fit_pair());
 }
 
 /// Bytes of a table's file, and of what is said beside it.  The page has none of a large table that the program put into it.
 async function files_of(table) {
-  const data = page.items[table.place];
+  const { data } = table;
   if (!data.bytes && data.file) data.bytes = new Blob([from_text(data.file)]);
   if (!data.bytes) throw new Error(`The page does not hold the file ${data.name} itself: drop it here to fit it.`);
   const bytes = await data.bytes.arrayBuffer().catch(() => { throw new Error(`${data.name} was moved or changed: drop it again.`); });
   return { [data.name]: new Uint8Array(bytes), ...(data.side ? { [`${data.name}.gonio.json`]: new TextEncoder().encode(data.side) } : {}) };
 }
-/// Options as gonio fit takes them, by their names: "--fix gamma=2 f0=0.04", words with blanks in quotes.
-function asked_words() {
+/// What a person asks of a fit beside its model, by the names of gonio fit's options: "--fix gamma=2 f0=0.04", words with blanks in quotes.
+function asked() {
   const words = {}, mask = $("mask").value.trim();
   let name = null;
   for (const [, quoted, plain] of $("words").value.matchAll(/'([^']*)'|(\S+)/g)) {
@@ -63,87 +73,133 @@ function asked_words() {
   if (mask) words.mask = [mask];
   return words;
 }
+const shell_word = (text) => (/^[\w./+,=-]+$/.test(text) ? text : `'${text.replaceAll("'", "'\\''")}'`);
+const file_word = (name) => shell_word(name.startsWith("-") ? `./${name}` : name);
+/// The command that does what was asked, and before it the one that says what a person said of the table's columns.
+/// \param columns  a map, as a side file has it, or nothing
+function command_of(name, columns, spec, { model, ...options }) {
+  const words = [];
+  if (columns) {
+    const { unit, cosine, ...rest } = columns, own = ["forward", "scale", "skip"], map = Object.entries(rest).filter(([key]) => !own.includes(key));
+    words.push("gonio columns", file_word(name), "--map", ...map.map(([role, column]) => shell_word(`${role}=${column}`)));
+    if (unit === "radians") words.push("--radians");
+    if (cosine) words.push("--cosine");
+    for (const key of own) if (rest[key] !== undefined) words.push(`--${key} ${shell_word(String(rest[key]))}`);
+    words.push("--quiet &&");
+  }
+  words.push("gonio fit", file_word(name), "--model", shell_word(spec));
+  for (const [option, list] of Object.entries(options)) words.push(`--${option.replaceAll("_", "-")}`, ...list.map(shell_word));
+  return [...words, "-o fit.json"].join(" ");
+}
+/// Fits the model that is moved to the first table beside it, as the page would.
+function fit_command() {
+  const [table, item] = some_pair(), words = asked();
+  return command_of(table.name, table.data.columns, words.model?.join(" ") ?? item.about.spec, words);
+}
 
-/// Values, intervals and all that a fit says, as an entry of the page.
+/// A fit's document as an entry of the page: what it is called, its values, and what is said of them.
+/// \param table    that it stands beside, for the channels that are shown, or null
 /// \param optimum  values by parameter and channel, also of those that the document has none of; {} of a document alone
-function fitted(text, name, table, optimum) {
-  const d = JSON.parse(text), n = d.channels.length, shown_here = table?.channels.every((c) => d.channels.includes(c));
+/// \param id       that the document is kept by
+/// \param command  that makes the fit
+function fitted(text, name, table, optimum, id, command) {
+  const d = JSON.parse(text), n = d.channels?.length;
+  if (!n || typeof d.model !== "string" || typeof (d.parameters ?? 0) !== "object") throw new Error(`${name}: found no model, channels and parameters, as a fit's document has them`);
+  const shown_here = table?.channels.every((c) => d.channels.includes(c));
   const channels = shown_here ? table.channels : n === 1 || n === 3 ? d.channels : n === 2 ? d.channels.slice(0, 1) : [0, n >> 1, n - 1].map((k) => d.channels[k]);
-  const of = (list) => (Array.isArray(list) ? channels.map((c) => list[Math.max(d.channels.indexOf(c), 0)]) : [list]);
-  const values = {}, intervals = {}, unknown = [];
+  const values = {}, parameters = {}, unknown = [];
   for (const [key, p] of Object.entries(d.parameters)) {
-    const v = of(p.value), known = v.filter(Number.isFinite);
-    v.forEach((x, c) => { if (!Number.isFinite(x)) unknown.push(v.length > 1 ? `${key}.${channels[c]}` : key); });
-    const found = optimum[key] && (optimum[key].length > 1 ? of(optimum[key]) : v.map(() => optimum[key][0]));
-    if (found ?? known.length) values[key] = v.map((x, c) => (Number.isFinite(x) ? x : found ? found[c] : known.reduce((a, b) => a + b) / known.length));
-    if (p.ci95) intervals[key] = Array.isArray(p.value) ? of(p.ci95) : [p.ci95];
+    const of = (list, one = !Array.isArray(p.value)) => (one ? [list] : channels.map((c) => list?.[Math.max(d.channels.indexOf(c), 0)]));
+    const v = of(p.value), had = v.filter(Number.isFinite), [status, limit, reason, ci] = ["status", "limit", "reason", "ci95"].map((member) => of(p[member]));
+    v.forEach((x, c) => { if (!Number.isFinite(x) && !key.startsWith("roughness")) unknown.push(v.length > 1 ? `${key}.${channels[c]}` : key); });
+    const found = optimum[key] && (optimum[key].length > 1 ? of(optimum[key], false) : v.map(() => optimum[key][0]));
+    if (found ?? had.length) values[key] = v.map((x, c) => (Number.isFinite(x) ? x : found ? found[c] : had.reduce((a, b) => a + b) / had.length));
+    if (!key.startsWith("roughness") && (p.status ?? p.ci95)) parameters[key] = v.map((_, c) => [status[c] ?? "free", ...(status[c] === "upper_limit" ? [null, limit[c]] : status[c] === "lower_limit" ? [limit[c], null] : ci[c] ?? [null, null]), reason[c] ?? ""]);
   }
   const said = !unknown.length ? "" : Object.keys(optimum).length ? `Not known: ${unknown.join(", ")}. The value here is one of many that fit as well.` : `The fit has no value for ${unknown.join(", ")}: it begins with another.`;
-  return { kind: "model", name, spec: d.model, values, intervals, channels, said, document: text };
+  const fit = { id, parameters, said };
+  if (d.residuals) {
+    const input = d.input ?? {}, file = String(input.path ?? table?.name ?? "").split("/").at(-1), options = {};
+    if (input.mask) options.mask = [input.mask];
+    if (d.metric && d.metric !== "log") options.metric = [d.metric];
+    if (d.robust && d.robust !== "none") options.robust = [d.robust];
+    Object.assign(fit, { file, log_rms: d.residuals.log_rms, converged: d.solver?.termination === "converged", warnings: d.warnings ?? [], next: (d.next ?? []).slice(0, 2), left_out: input.mask ?? "", command: command ?? command_of(file, null, d.model, options) });
+  }
+  documents.set(id, text);
+  return { name, spec: d.model, values, channels, fit: said || d.residuals || Object.keys(parameters).length ? fit : null };
 }
+const new_id = () => String(Date.now());
 /// Shows a fit in place of the model that was fitted, or beside what is there.
 function take_fit(data, instead) {
-  const place = page.items.push(data) - 1;
-  const item = bind(data.name, data.spec, "", data.intervals, data.channels.length);
+  if (!instead && items.length >= colours) throw new Error(`${data.name}: ${full}`);
+  const item = bind(data.name, data.spec, "", data.channels, data.fit);
   for (const p of item.about.parameters) if (data.values[p.name]) numbers(g.values(item.handle) + 8 * p.first, p.count).set(data.values[p.name]);
-  Object.assign(item, { origin: place, about: describe(item.handle) });
-  const at = items.indexOf(instead);
-  if (at >= 0) g.drop(instead.handle), item.visible = instead.visible, items[at] = item, active = at;
-  else if (items.length < colours) active = items.push(item) - 1;
-  else throw new Error("Eight models and tables are here: remove one first.");
-  show_all(), finish();
+  item.about = describe(item.handle);
+  if (instead) g.drop(instead.handle), item.visible = instead.visible, active = items.indexOf(instead), items[active] = item;
+  else active = items.push(item) - 1;
+  compared = null, show_all(), finish();
 }
+const full = "eight models and tables are here: remove one first.";
 const times = (log_rms) => `×/÷ ${Math.exp(log_rms).toFixed(3)}`;
 function save(name, text, type = "application/json") {
   const address = URL.createObjectURL(new Blob([text], { type }));
   make("a", { href: address, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(address), 1000);
 }
-const saver = (label, name, text) => Object.assign(make("button", {}, label), { onclick: () => save(name, text) });
-function show_fit(text, table) {
-  const d = JSON.parse(text), line = (kind, said) => make("p", {}, make("b", {}, `${kind}: `), said);
-  // Advice that is an option, and no matter of taste as the metric is, is taken at a press.
-  const advice = (said) => {
-    const [, option, value] = /^--(model|bounds|mask|bins) ('[^']*'|[^\s:]+)/.exec(said) ?? [], p = line("Try", said);
-    if (option) p.append(" ", Object.assign(make("button", {}, "Do it"), { onclick: carefully(() => {
-      if (option === "model") return fit_table(value);
-      $("words").value = `${$("words").value} --${option} ${value}`.trim();
-      return fit_table();
-    }) }));
-    return p;
-  };
-  const head = `${d.model} leaves a typical factor of ${times(d.residuals.log_rms)} on ${table.name}; ${d.solver.termination === "converged" ? "the fit converged" : "the fit did not converge"}.`;
-  $("fitted").replaceChildren(make("h2", {}, "Fit"), make("p", {}, head), ...d.warnings.map((w) => line("Beware", w)), ...d.next.slice(0, 2).map(advice),
-    make("div", { class: "controls" }, saver("Save as JSON", `${table.name}.fit.json`, text)));
-  $("fitted").hidden = false;
+/// A document that is here is saved; of an address there is none.
+const saver = (id, name) => (documents.has(id) ? [make("div", { class: "controls" }, Object.assign(make("button", {}, "Save as JSON"), { onclick: () => save(name, documents.get(id)) }))] : []);
+const line = (kind, said) => make("p", {}, make("b", {}, `${kind}: `), said);
+/// Advice that is an option, and no matter of taste as the metric is, is taken at a press.
+function advice(said) {
+  const [, option, value] = /^--(model|bounds|mask|bins) ('[^']*'|[^\s:]+)/.exec(said) ?? [], p = line("Try", said);
+  if (option && can_fit && fit_pair()) p.append(" ", Object.assign(make("button", {}, "Do it"), { onclick: carefully(() => {
+    if (option === "model") return fit_table(value);
+    $("words").value = `${$("words").value} --${option} ${value}`.trim();
+    return fit_table();
+  }) }));
+  return p;
 }
-/// Shows the sentences of a fit that came as a document, where a table is beside it.
-function show_document(data) {
-  const table = can_fit && data?.document && fit_pair()?.[0];
-  if (table) show_fit(data.document, table);
+function fit_panel({ about, changed, fit }) {
+  const head = `${terms_name(about)} leaves a typical factor of ${times(fit.log_rms)} on ${fit.file}${fit.left_out ? `, without ${fit.left_out}` : ""}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
+  return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...fit.next.map(advice), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
+}
+function comparison_panel(d) {
+  const number = (x, digits = 3) => (Number.isFinite(x) ? Number(x.toPrecision(digits)).toString() : "–"), factor = (x) => (Number.isFinite(x) ? times(x) : "–");
+  const rows = d.rows.map(([model, note, unseen, log_rms, bic, free]) => {
+    const take = make("button", {}, "Take");
+    take.onclick = carefully(() => fit_table(model));
+    return make("tr", model === d.recommended ? { class: "best" } : {}, make("td", {}, model, ...(note ? [make("small", {}, note)] : [])), make("td", {}, factor(unseen)), make("td", {}, factor(log_rms)), make("td", {}, number(bic, 4)), make("td", {}, number(free)), make("td", {}, take));
+  });
+  const head = make("tr", {}, ...["model", "typical factor on unseen angles", "of the fit", "BIC", "free", ""].map((t) => make("th", { scope: "col" }, t)));
+  return [make("h2", {}, `Models compared on ${d.file}`), ...(d.recommended ? [make("p", {}, d.none_fits ? "None fits; the nearest is " : "Take ", make("b", {}, d.recommended), `. ${d.reason ?? ""}`)] : []),
+    ...d.beware.map((w) => line("Beware", w)), ...d.as_good.map((m) => line("As good", m)), ...d.disagreement.map((w) => line("But", w)),
+    make("div", { class: "scroll" }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))), make("p", { class: "muted" }, "The program adds the colour difference of a rendered sphere and the speed of each: ", make("code", {}, d.command)), ...saver(d.id, `${d.file}.models.json`)];
+}
+let panel = "";
+/// What a comparison says, or else the fit of the model that is chosen, if its terms are still those that were fitted.
+function show_panel() {
+  const item = items[active], fit = is_model(item) && item.fit?.command ? item.fit : null, now = JSON.stringify([compared ?? fit, item.changed, Boolean(can_fit && fit_pair())]);
+  if (now === panel) return;
+  panel = now;
+  refill($("fitted"), compared ? comparison_panel(compared) : fit ? fit_panel(item) : []);
+  $("fitted").hidden = !$("fitted").childElementCount;
 }
 async function fit_table(model) {
-  const [table, item] = fit_pair(), words = asked_words(), spec = model ?? words.model?.join(" ") ?? item.about.spec;
-  const { document: text, optimum } = JSON.parse(await ask({ do: "fit", file: page.items[table.place].name, options: { ...words, model: [spec] } }, await files_of(table)));
-  const other = JSON.parse(text).input?.sha256, own = page.items[table.place].sha256;
-  take_fit(fitted(text, spec === item.about.spec ? item.name : spec, page.items[table.place], optimum), item), show_fit(text, table);
+  const [table, item] = some_pair(), words = asked(), spec = model ?? words.model?.join(" ") ?? item.about.spec, command = command_of(table.name, table.data.columns, spec, words);
+  const { document: text, optimum } = JSON.parse(await ask({ do: "fit", file: table.name, options: { ...words, model: [spec] } }, await files_of(table)));
+  const other = JSON.parse(text).input?.sha256, own = table.sha256;
+  take_fit(fitted(text, "", table, optimum, new_id(), command), item);
   say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.` : "Fitted.");
 }
 async function compare_models() {
-  const [table] = fit_pair();
-  const text = await ask({ do: "models", file: page.items[table.place].name, models: ["all"], options: asked_words() }, await files_of(table)), d = JSON.parse(text);
-  const number = (x, digits = 3) => (Number.isFinite(x) ? Number(x.toPrecision(digits)).toString() : "–"), factor = (x) => (Number.isFinite(x) ? times(x) : "–");
-  const behind = (m) => m.cv_log_rms ?? m.log_rms ?? Infinity;
-  const rows = d.models.sort((a, b) => behind(a) - behind(b)).map((m) => {
-    const take = make("button", {}, "Take");
-    take.onclick = carefully(() => fit_table(m.model));
-    return make("tr", m.model === d.recommended ? { class: "best" } : {}, make("td", {}, m.model, ...(m.note ? [make("small", {}, m.note)] : [])), make("td", {}, factor(m.cv_log_rms)), make("td", {}, factor(m.log_rms)), make("td", {}, number(m.bic, 4)), make("td", {}, number(m.parameters)), make("td", {}, take));
-  });
-  const head = make("tr", {}, ...["model", "typical factor on unseen angles", "of the fit", "BIC", "free", ""].map((t) => make("th", { scope: "col" }, t)));
-  $("fitted").replaceChildren(make("h2", {}, "Models compared"), ...(d.recommended ? [make("p", {}, d.none_fits ? "None fits; the nearest is " : "Take ", make("b", {}, d.recommended), `. ${d.reason ?? ""}`)] : []),
-    ...[...(d.beware ?? []), ...(d.warnings ?? [])].map((w) => make("p", {}, make("b", {}, "Beware: "), w)), make("div", { class: "scroll" }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))),
-    make("div", { class: "controls" }, saver("Save as JSON", `${table.name}.models.json`, text)));
-  $("fitted").hidden = false, say("Compared.");
+  const [table] = some_pair(), { model, ...words } = asked(), id = new_id();
+  const text = await ask({ do: "models", file: table.name, models: ["all"], options: words }, await files_of(table)), d = JSON.parse(text);
+  const behind = (m) => m.cv_log_rms ?? m.log_rms ?? Infinity, short = (x) => (Number.isFinite(x) ? Number(x.toPrecision(6)) : null);
+  documents.set(id, text);
+  compared = { id, file: table.name, recommended: d.recommended ?? "", none_fits: d.none_fits, reason: d.reason ?? "", as_good: d.as_good, disagreement: d.disagreement, beware: [...d.beware, ...d.warnings],
+    rows: d.models.sort((a, b) => behind(a) - behind(b)).map((m) => [m.model, m.note ?? "", short(m.cv_log_rms), short(m.log_rms), short(m.bic), short(m.parameters)]),
+    command: command_of(table.name, table.data.columns, "", { ...words }).replace("--model ''", "--models all").replace("-o fit.json", "-o models.json") };
+  finish(), say("Compared.");
 }
 
 /// Reads files that were dropped or chosen: tables with their side files, and documents of fits.
@@ -154,24 +210,26 @@ async function read_files(list) {
     if (f.name.endsWith(".gonio.json")) continue;
     if (f.name.endsWith(".json") && f.size < 1e7) {
       const text = await f.text();
-      if (text.includes('"gonio.fit/1"')) { take_fit(fitted(text, f.name, page.items[fit_pair()?.[0].place], {})), show_document(page.items.at(-1)); continue; }
+      if (text.includes('"gonio.fit/1"')) {
+        try { take_fit(fitted(text, f.name, items.find((item) => !is_model(item)), {}, new_id())); } catch (error) { throw error instanceof SyntaxError ? new Error(`${f.name}: ${error.message}`) : error; }
+        continue;
+      }
     }
     await read_table({ name: f.name, bytes: f, side: sides.get(f.name) ?? "" });
   }
 }
 async function read_table(source) {
-  const same = page.items.find((one) => one.kind === "table" && one.name === source.name && !one.bytes && !one.file);
+  const same = tables.find(({ data }) => data.name === source.name && !data.bytes && !data.file);
   const files = { [source.name]: new Uint8Array(await source.bytes.arrayBuffer()), ...(source.side ? { [`${source.name}.gonio.json`]: new TextEncoder().encode(source.side) } : {}) };
-  if (same) return Object.assign(same, source), say(`${source.name} is here: fit it now.`);  // of a page that the program made
-  if (items.length >= colours) throw new Error("Eight models and tables are here: remove one first.");
-  const d = JSON.parse(await ask({ do: "read", file: source.name, options: asked_words() }, files));
+  if (same) return Object.assign(same.data, source), say(`${source.name} is here: fit it now.`);  // of a page that the program made
+  if (items.length >= colours) throw new Error(`${source.name}: ${full}`);
+  const d = JSON.parse(await ask({ do: "read", file: source.name, options: asked() }, files));
   show_columns(source, d);
   if (!d.table) throw new Error(d.error);
-  const data = { ...d.table, ...source, name: source.name }, place = page.items.push(data) - 1;
-  const table = { ...hold_table(data), place };
+  const table = hold_table({ ...d.table, ...source, dropped: true });
   tables.push(table), items.unshift(table), active = Math.min(active + 1, items.length - 1);
-  if (!items.some((item) => is_model(item) && item.channels === table.channels)) {
-    const item = bind("model", "lambert+ggx/smith_ggx.correlated/schlick", "", {}, table.channels);
+  if (!items.some((item) => is_model(item) && item.channels.length === table.channels.length)) {
+    const item = bind("", usual, "", table.channels);
     if (items.length === 2 && is_model(items[1])) g.drop(items[1].handle), items.pop();
     active = items.push(item) - 1;
   }
@@ -199,7 +257,7 @@ function show_columns(source, d) {
     if ($("with-cosine").checked) columns.cosine = true;
     for (const key of ["forward", "scale", "skip", "weight", "channel"]) if (map[key] !== undefined) columns[key] = map[key];
     box.hidden = true;
-    await read_table({ ...source, side: JSON.stringify({ schema: "gonio.table/1", columns }) });
+    await read_table({ ...source, columns, side: JSON.stringify({ schema: "gonio.table/1", columns }) });
   });
   box.replaceChildren(make("h2", {}, `The columns of ${source.name}`), ...(c.said ?? []).map((s) => make("p", {}, s)),
     make("div", { class: "controls" }, ...[...roles_of_columns, ...(values.length ? values : ["f"])].map(pick), tick("in-radians", "angles in radians", map.unit === "radians"), tick("with-cosine", "values are f cos θo", Boolean(map.cosine)), again));
@@ -213,16 +271,15 @@ function show_inspection(d) {
   $("inspection").hidden = false;
 }
 
-/// This page with what is in view, as the program would have made it.
+/// This page with all that is in view: what its address says, and the tables and documents that an address cannot hold.
 async function save_page() {
-  const list = await Promise.all(items.map(async (item) => {
-    if (is_model(item)) return { kind: "model", name: item.name, spec: item.about.spec, channels: item.channels === 1 ? ["f"] : ["r", "g", "b"], values: values_of(item), said: "", intervals: item.intervals ?? {} };
-    const { bytes, ...data } = page.items[item.place];
+  const kept_tables = items.filter((item) => !is_model(item)), list = await Promise.all(kept_tables.map(async ({ data: { bytes, dropped, ...data } }) => {
     if (bytes && !data.file && bytes.size <= most_file) data.file = to_text(new Uint8Array(await bytes.arrayBuffer()));
     return data;
   }));
-  const copy = pristine.cloneNode(true);
-  copy.querySelector("#explored").textContent = JSON.stringify({ items: list }).replaceAll("<", "\\u003c");
+  const s = JSON.parse(state()), ids = [compared?.id, ...items.map((item) => item.fit?.id)].filter((id) => documents.has(id)), copy = pristine.cloneNode(true);
+  for (const one of s.i) if (one.t !== undefined) one.t = kept_tables.indexOf(tables[one.t]);
+  copy.querySelector("#explored").textContent = JSON.stringify({ items: list, state: JSON.stringify(s), documents: Object.fromEntries(ids.map((id) => [id, documents.get(id)])) }).replaceAll("<", "\\u003c");
   save("gonio.html", `<!doctype html>\n${copy.outerHTML}\n`, "text/html");
 }
 const most_file = 1 << 24;

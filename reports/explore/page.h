@@ -2,10 +2,8 @@
 /// \file
 /// The page of `gonio explore`: models and tables side by side, drawn by the catalogue's own code as WebAssembly.
 
-#include <array>
 #include <optional>
 #include <string>
-#include <utility>
 #include <variant>
 #include <vector>
 
@@ -20,11 +18,7 @@ inline constexpr std::size_t most_explored = 8;
 struct ExploredModel {
   std::string name;  ///< what the user called it
   ModelArgument model;
-  /// 95 % intervals of a fit's parameters, low and high by channel; NaN where there is none.
-  std::vector<std::pair<std::string, std::vector<std::array<double, 2>>>> intervals;
-  /// Values that the fit could not determine ("kd.b"): they begin where the other channels are, or where a fit begins.
-  std::vector<std::string> undetermined = {};
-  std::string document = {};  ///< of a fit, for what it says; "" of a long one
+  std::string document = {};  ///< of a fit, for what it says of its values; "" of a long one
 };
 
 using Explored = std::variant<ExploredModel, ExploredTable>;

@@ -9,11 +9,11 @@
 #include "base/json/describe.h"
 #include "base/quantile.h"
 #include "base/text.h"
+#include "brdf/model/model_names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/pages/fields.h"
 #include "reports/pages/fit_sections.h"
-#include "reports/pages/model_names.h"
 #include "reports/pages/spheres_section.h"
 #include "reports/pages/table_sections.h"
 
@@ -282,7 +282,8 @@ std::string fit_page_html(const FitDocument& d,
                                               : "reproduces";
   Pictures pictures;
   Page out{"", "fit", d.input_path,
-           fmt::format("{} {} {}", model_names(std::array{d.model})[0], d.misfit.told ? "does not fit" : "fitted to", file)};
+           fmt::format("{} {} {}", model_names(std::array{d.model})[0],
+                       d.misfit.told ? "does not fit" : "fitted to", file)};
   out.first.emplace_back(
       Prose{fmt::format("`{}` {} the {} values used of `{}` {} a typical factor of **{}** (log RMS "
                         "{}); the fit {}.",

@@ -6,11 +6,11 @@
 #include <iterator>
 #include <limits>
 
+#include "brdf/model/model_names.h"
 #include "fitting/choice/document.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/pages/fields.h"
-#include "reports/pages/model_names.h"
 #include "reports/pages/spheres_section.h"
 #include "reports/pages/table_sections.h"
 #include "reports/picture/document.h"

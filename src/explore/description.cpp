@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "brdf/catalogue/registry.h"
+#include "brdf/model/model_names.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
 #include "explore/sphere.h"
@@ -50,7 +51,11 @@ std::string Surface::description() const {
   for (const auto& l : m->model.lobes) parts.push_back({id(l.ndf), id(l.masking), id(l.fresnel)});
   for (const auto& p : m->model.parameters)
     parameters.push_back(slider_of(p, std::span(m->values).subspan(p.first, p.count)));
-  return Json{{"spec", to_text(m->model.spec)},
+  const std::string spec = to_text(m->model.spec);
+  const auto preset = std::ranges::find(presets(), spec, &Preset::spec);
+  const std::string called = preset == presets().end() ? spec : std::string(preset->about.id);
+  return Json{{"spec", spec},
+              {"name", model_names(std::span(&called, 1)).front()},
               {"channels", m->model.channels},
               {"anisotropic", m->model.anisotropic},
               {"parts", parts},

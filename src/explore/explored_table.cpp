@@ -195,8 +195,11 @@ Json page_json(const ExploredTable& t) {
   for (const auto& c : t.cuts)
     if (c.at == "theta_i")
       cuts.push_back({{"theta_i", c.at_deg}, {"theta_o", c.deg}, {"f", c.data}});
+  // The page takes tables as isotropic: one azimuth for each zenith angle, whichever the light came
+  // from.
   for (const auto& a : t.albedo)
-    if (a.phi_i_deg == 0) albedo.push_back({{"theta_i", a.theta_i_deg}, {"value", a.albedo}});
+    if (albedo.empty() || albedo.back()["theta_i"] != a.theta_i_deg)
+      albedo.push_back({{"theta_i", a.theta_i_deg}, {"value", a.albedo}});
   std::string said = fmt::format(
       "{} values. The page holds them on a grid of {} × {} × {} half and difference angles: "
       "typically off by ×/÷ {:.3f}, and "

@@ -46,7 +46,7 @@ class Surface {
   /// becomes both widths of an anisotropic model and back.
   /// \throws Error  wrong_usage; the model is then as it was
   void swap_model(std::string_view spec);
-  /// What a page must know to show sliders, as JSON: the model's parts, and each parameter's values, legal range, range of a
+  /// What a page must know to show sliders, as JSON: the model's spec, its name and parts, and each parameter's values, legal range, range of a
   /// slider, whether that is logarithmic, default and meaning. Of a table its channels.
   std::string description() const;
 

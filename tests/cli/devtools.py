@@ -108,7 +108,7 @@ class Browser:
 
     def key(self, kind, key):
         self("Input.dispatchKeyEvent", type=kind, key=key, code=f"Key{key.upper()}" if len(key) == 1 else key,
-             windowsVirtualKeyCode={"ArrowLeft": 37, "ArrowRight": 39}.get(key, ord(key.upper()[0])))
+             windowsVirtualKeyCode={"ArrowLeft": 37, "ArrowRight": 39, "ArrowDown": 40}.get(key, ord(key.upper()[0])))
 
     def screenshot(self, path, whole=False):
         picture = self("Page.captureScreenshot", captureBeyondViewport=whole)["data"]

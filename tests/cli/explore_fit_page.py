@@ -77,12 +77,13 @@ def press(page, button, seconds=120):
 
 
 def document(page):
-    return json.loads(page.ask("page.items[items[active].origin].document"))
+    return json.loads(page.ask("documents.get(items[active].fit.id)"))
 
 
 def list_of_intervals(document):
-    all_of = lambda p: p["ci95"] if isinstance(p["value"], list) else [p["ci95"]]
-    return [ci for name, p in document["parameters"].items() if name != "roughness" and p["ci95"] for ci in all_of(p) if ci and None not in ci]
+    """Of the values that a fit bounds, on one side or on both."""
+    all_of = lambda p, what: p[what] if isinstance(p["value"], list) else [p[what]]
+    return [status for name, p in document["parameters"].items() if name != "roughness" for status in all_of(p, "status") if status in ("free", "upper_limit", "lower_limit")]
 
 
 def fitted(page, what, table, *words):
@@ -104,17 +105,77 @@ def of_the_program(page):
     fitted(page, "a page with its table", "t.csv")
     page.ask("$('undo').click()")
     expect(page.ask("state()") == before, "a fit is undone")
+    expect(page.ask("$('fitted').hidden"), "and what it said goes with it")
     # What a person leaves out.
     page.ask("$('mask').value = 'theta_o > 70'")
     fitted(page, "without grazing samples", "t.csv", "--mask", "theta_o > 70")
-    page.ask("$('words').value = '--robust huber --fix f0=0.05'")
-    fitted(page, "with options", "t.csv", "--mask", "theta_o > 70", "--robust", "huber", "--fix", "f0=0.05")
+    expect("without theta_o > 70" in page.ask("$('fitted').innerText"), "what was left out is said beside the answer")
+    page.ask("$('words').value = '--robust huber --metric relative --fix f0=0.05'")
+    fitted(page, "with options", "t.csv", "--mask", "theta_o > 70", "--robust", "huber", "--metric", "relative", "--fix", "f0=0.05")
+    command_makes_the_same(page, "a fit with options")
+    # Another model has nothing of it, and it is there again with the model.
+    before = page.ask("$('fitted').innerText")
+    page.ask("swap([['eon'], ['ggx', 'smith_ggx.correlated', 'schlick']])")
+    expect(page.ask("$('fitted').hidden") and page.ask("document.querySelectorAll('.interval').length") == 0, "a fit says nothing of a model that was not fitted")
+    page.ask("$('undo').click()")
+    expect(page.ask("$('fitted').innerText") == before, "and it is there again with the model")
+    page.ask("(() => { const r = $('exact-0'); r.value = 0.3, r.dispatchEvent(new Event('change')); })()")
+    expect("You have moved its values since." in page.ask("$('fitted').innerText"), "values that have moved since the fit are said to have")
+    page.ask("$('undo').click()")
+    expect(page.ask("[$('mask').value, $('words').value]") == ["theta_o > 70", "--robust huber --metric relative --fix f0=0.05"], "undo leaves what is asked")
+    link_shows_it(page)
     page.ask("$('words').value = '', $('mask').value = 'theta_o >'")
     said, program = press(page, "fit"), run("fit", "t.csv", "--mask", "theta_o >").stderr.strip()
     expect(said and program.endswith(said), f"a wrong mask: {said}; the program says {program}")
 
 
+def command_makes_the_same(page, what):
+    """The command that is copied, and the one that stands under the answer, make the fit that the page made."""
+    page.ask("$('copy-fit').click()")
+    command, said = page.ask("$('copied').value"), page.ask("$('fitted').querySelector('code').textContent")
+    expect(command == said, f"{what}: copied {command}, beside the answer {said}")
+    (folder / "fit.json").unlink(missing_ok=True)
+    done = subprocess.run(command.replace("gonio ", f"'{gonio}' "), shell=True, cwd=folder, capture_output=True, text=True)
+    expect(done.returncode == 0, f"{what}: {command}: {done.stderr}")
+    if done.returncode == 0:
+        same_fit(document(page), json.loads((folder / "fit.json").read_text()), what)
+
+
+whole = "[state(), $('fitted').innerText.replace('Save as JSON', '').trim(), document.querySelectorAll('.interval').length, $('mask').value, $('words').value]"
+
+
+def link_shows_it(page):
+    seen, link = page.ask(whole), page.ask("location.href")
+    page.open("about:blank", "true")
+    page.open(link, idle)
+    expect(page.ask(whole) == seen and seen[2] > 0 and "typical factor" in seen[1], f"a link shows what was seen: {page.ask(whole)[1:]}, expected {seen[1:]}")
+
+
+def table_only(page):
+    """A page of a table has a model to begin with, and says what a fit lacks."""
+    run("explore", "small.csv", "-o", "table.html")
+    page.open("about:blank", "true")
+    page.open((folder / "table.html").as_uri(), idle)
+    expect(page.ask("items.length === 2 && !$('fit').disabled && !$('choose').disabled && is_model(items[active])"), "a page of a table can be fitted at once")
+    page.ask("$('remove').click()")
+    expect(page.ask("$('fit').disabled && !$('why').hidden && $('why').textContent"), "a page without a model says what a fit lacks")
+    page.ask("$('undo').click(); $('fit').focus(); $('fit').click()")
+    page.wait("job !== null")
+    expect(page.ask("document.activeElement.id") == "cancel", "while a fit runs the focus is where it can be ended")
+    page.wait("job === null && $('status').textContent === 'Fitted.'", 120)
+    page.wait("document.activeElement.id === 'fit'")
+    expect(page.ask("label(items[active])") == page.ask("items[active].about.name ?? items[active].about.spec"), "a model that was fitted is called by its terms")
+    names = page.ask("items.map(label)")
+    page.ask("$('what').value = materials().find(([n]) => n.includes('measured'))[0], $('add').click()")
+    press(page, "fit")
+    expect(page.ask("label(items[active])") == page.ask("items[active].about.name ?? items[active].about.spec"), "a metal that was fitted is no metal of that name")
+
+
 def of_files(page):
+    (folder / "empty.json").write_text('{"schema":"gonio.fit/1"}')
+    page.open((folder / "app.html").as_uri(), idle)
+    drop_and_wait(page, "empty.json")
+    expect(page.ask("$('status').textContent") == "empty.json: found no model, channels and parameters, as a fit's document has them", f"a document without a fit: {page.ask('$(`status`).textContent')}")
     page.open((folder / "app.html").as_uri(), idle)
     expect(not page.ask("$('drop').hidden") and page.ask("$('fitting').hidden"), "a page without a table asks for one")
     drop_and_wait(page, "t.csv", "t.csv.gonio.json")
@@ -154,6 +215,10 @@ def columns(page):
     page.wait("$('status').textContent !== 'waiting' && job === null", 60)
     run("columns", "odd.csv", "--map", "theta_i=thetai", "phi_i=phii", "theta_o=thetar", "phi_o=phir", "f=green")
     fitted(page, "columns that a person named", "odd.csv")
+    (folder / "odd.csv.gonio.json").unlink()
+    command_makes_the_same(page, "columns that a person named")
+    page.ask("$('copy-address').click()")
+    page.wait("$('status').textContent.includes('odd.csv')")
 
 
 def troubles(page):
@@ -195,22 +260,40 @@ def models_and_saved(page):
     best = page.ask("document.querySelector('#fitted .best td').firstChild.textContent")
     program = json.loads(run("fit", "small.csv", "--models", "all", "--json").stdout)["recommended"]
     expect(best == program, f"models compared: {best}, the program takes {program}")
-    page.ask("document.querySelector('#fitted .best button').click()")
+    said = page.ask("$('fitted').innerText")
+    d = json.loads(page.ask("documents.get(compared.id)"))
+    expect(all(f"As good: {m}" in said for m in d["as_good"]) and all(f"But: {m}" in said for m in d["disagreement"]) and "--models all" in said, f"all that a comparison says is shown: {said}")
+    page.ask("compared.as_good = ['lambert'], compared.disagreement = ['BIC prefers eon.'], show_panel()")
+    expect("As good: lambert" in page.ask("$('fitted').innerText") and "But: BIC prefers eon." in page.ask("$('fitted').innerText"), "what is as good, and who disagrees")
+    page.ask("document.querySelector('#fitted .best button').focus(); document.querySelector('#fitted .best button').click()")
     page.wait("$('status').textContent === 'Fitted.'", 120)
+    page.ask("$('undo').click()")
+    expect(page.ask("$('fitted').innerText.includes('Models compared')"), "a model that was taken is given back")
+    page.ask("$('redo').click()")
+    for k in range(8):
+        (folder / f"more{k}.csv").write_bytes((folder / "small.csv").read_bytes())
+    drop(page, *[f"more{k}.csv" for k in range(8)])
+    page.wait("$('status').textContent.startsWith('more6.csv: eight models and tables')", 60)
+    for k in range(6):
+        page.ask("$('pick-0').click(), $('remove').click()")
+    page.ask("$('pick-1').click()")
     page.ask("save = (name, text) => { globalThis.saved = text; }; $('save-page').click()")
     page.wait("globalThis.saved")
     (folder / "saved.html").write_text(page.ask("saved"))
-    values = page.ask("[items.length, values_of(items[active]), items[active].about.spec]")
+    seen = page.ask(whole)
     page.open("about:blank", "true")
     page.open((folder / "saved.html").as_uri(), idle)
-    expect(page.ask("[items.length, values_of(items[active]), items[active].about.spec]") == values, "a saved page shows the same")
+    there = page.ask(whole)
+    expect(there[1:] == seen[1:] and json.loads(there[0])["i"][1] == json.loads(seen[0])["i"][1], f"a saved page shows the same: {there[1:]}, expected {seen[1:]}")
+    expect(page.ask("documents.has(items[active].fit.id)"), "with the document of its fit")
+    link_shows_it(page)
     said = press(page, "fit")
     expect(said == "Fitted.", f"and fits: {said}")
 
 
 with Browser(1400, 900) as page:
     sys.excepthook = lambda *error: (print("\n".join(complaints)), sys.__excepthook__(*error))
-    for part in (of_the_program, of_files, of_a_large_file, columns, troubles, models_and_saved):
+    for part in (of_the_program, table_only, of_files, of_a_large_file, columns, troubles, models_and_saved):
         part(page)
     complaints += page.problems(folder.as_uri())
 print("\n".join(complaints))

@@ -137,7 +137,8 @@ def each_slider(page):
         moved = [(key, c) for key, v in before["i"][1]["v"].items() for c in range(len(v)) if v[c] != after["i"][1]["v"][key][c]]
         label = page.ask(f"document.querySelector('label[for={name}]').textContent")
         expect([f"{k}.{'rgb'[c]}" if len(before['i'][1]['v'][k]) > 1 else k for k, c in moved] == [label], f"{label} moves {moved}")
-        before["i"][1]["v"] = after["i"][1]["v"] = None
+        for one in (before["i"][1], after["i"][1]):
+            del one["v"], one["x"]
         expect(before == after, f"{label} moves nothing else")
         expect(page.ask("look('sphere-1')") != pictures, f"{label} moves the sphere")
         expect(page.ask("[look('sphere-0'), look('sphere-2')]") == others, f"{label} leaves the other spheres")
@@ -231,7 +232,7 @@ def copies(page):
     said = subprocess.run(page.ask("command()").replace("gonio eval", f"'{gonio}' eval"), shell=True, cwd=folder, capture_output=True, text=True)
     reading = dict(page.ask("JSON.parse($('cut').querySelector('.readout').dataset.values)"))
     expect(said.returncode == 0, f"the command copied runs: {said.stderr}")
-    near(reading[page.ask("items[active].name")], json.loads(said.stdout)["rows"][0]["f"][1], "the command copied, at the reading")
+    near(reading[page.ask("label(items[active])")], json.loads(said.stdout)["rows"][0]["f"][1], "the command copied, at the reading")
     shown = page.ask("(() => { const c = cuts.curves[cuts.curves.findIndex((c) => c.colour === active)]; return [0, 30, 45, 80].map((t) => c.channels.map((f) => f[nearest(cuts.angles, t)])); })()")
     for f, values in zip(evaluated(words, rows), shown):
         for a, b in zip(values, f):
@@ -248,6 +249,100 @@ def copies(page):
     svg = page.ask("svg_text('cut')")
     expect(svg.startswith("<svg") and "var(" not in svg.split("style=")[2].split('"')[1], "an SVG that stands alone")
     expect(page.ask("png_of('spheres').then((b) => b.size)") > 5000, "a PNG of the spheres")
+
+
+def names(page):
+    """An entry is called as it was named while it is that, and by its terms once it is another."""
+    everywhere = ("[...[...document.querySelectorAll('#surfaces label')].map((n) => n.firstChild.textContent), ...[...document.querySelectorAll('#spheres figcaption, #slices .pictures figcaption')].map((n) => n.lastChild.textContent), "
+                  "...[...document.querySelectorAll('#cut .readout .entry')].map((n) => n.childNodes[1].textContent.trim()), $('facts').innerText].join(' | ')")
+    page.open("about:blank", "true")
+    page.open(address("plain.html"), ready)
+    page.ask(page_tools)
+    terms = page.ask("items[0].about.name ?? items[0].about.spec")
+    expect(page.ask("label(items[0])") == terms, "what nobody named is called by its terms")
+    page.ask("$('what').value = 'Red plastic', $('add').click()")
+    settle(page)
+    expect("Red plastic" in page.ask(everywhere) and "changed" not in page.ask(everywhere), "what was added has its name")
+    page.ask("(() => { const r = $('value-3'); r.focus(); choose(r, 500); })()")
+    page.wait("$('facts').innerText.includes('Red plastic, changed')")
+    seen = page.ask(everywhere)
+    expect(seen.count("Red plastic") == seen.count("Red plastic, changed") >= 5, f"and says so when its values have moved: {seen}")
+    page.ask("choose($('term-Diffuse'), 'oren_nayar')")
+    page.wait("!$('facts').innerText.includes('Red plastic')")
+    seen = page.ask(everywhere)
+    expect("Red plastic" not in seen and seen.count(page.ask("label(items[1])")) >= 5, f"another model has no name of the one before: {seen}")
+    page.ask("choose($('whole'), 'Red plastic'); $('what').value = 'Red plastic', $('add').click()")
+    expect(page.ask("items.map(label)") == [terms, "Red plastic", "Red plastic, 2"], "two of one name are numbered")
+    page.ask("$('add-lobe').click()")
+    expect(page.ask("items[2].about.parts.filter((p) => p.length === 3).length") == 2, "a lobe is added")
+    page.ask("$('take-lobe').click()")
+    expect(page.ask("items[2].about.spec") == "lambert+ggx/smith_ggx.correlated/schlick", "and taken away")
+
+
+def by_keys(page):
+    page.open("about:blank", "true")
+    page.open(address("paint.html"), ready)
+    page.ask(page_tools)
+    settle(page)
+    before = page.ask("state()")
+    page.ask("$('what').focus()")
+    for key in ("ArrowDown", "ArrowDown", "g"):
+        page.key("keyDown", key)
+        page.key("keyUp", key)
+    expect(page.ask("state()") == before, "a list that is gone through adds nothing")
+    page.ask("$('term-Masking').focus(); choose($('term-Masking'), 'smith_ggx.separable')")
+    expect(page.ask("document.activeElement.id") == "term-Masking", "the focus stays where a term was swapped")
+    page.ask("$('whole').focus(); choose($('whole'), 'Rubber')")
+    expect(page.ask("document.activeElement.id") == "whole", "and where a model became another")
+    now = page.ask("state()")
+    page.ask("$('compare').focus()")
+    page.key("keyDown", " ")
+    expect(page.ask("items[1].name") == "fit.json" and page.ask("$('status').textContent") == "This is A.", "the space bar holds A")
+    page.key("keyUp", " ")
+    expect(page.ask("state()") == now, "and lets it go")
+    for _ in range(2):
+        page.ask("$('undo').focus(); $('undo').click()")
+    expect(page.ask("$('undo').disabled && document.activeElement.id") == "redo", "what cannot be undone further leaves the focus at what can be done")
+    heard = page.ask("[...document.querySelectorAll('input[type=range]')].map((r) => [r.id, r.getAttribute('aria-valuetext')])")
+    expect(all(text for _, text in heard) and dict(heard)["theta"] == "45°", f"sliders say their values: {heard}")
+
+
+def frames(page):
+    """What is drawn lies within its frame, between lines that tell its value."""
+    outside = ("(id) => { const svg = $(id).querySelector('svg'), [, , w, h] = svg.getAttribute('viewBox').split(' ').map(Number); const all = [...svg.querySelectorAll('.curve')].flatMap((p) => [...p.getAttribute('d').matchAll(/[ML](-?[\\d.]+) (-?[\\d.]+)/g)].map((m) => [Number(m[1]), Number(m[2])])); "
+               "return all.filter(([x, y]) => x < 45 || x > w - 9 || y < 3 || y > h - 21).length; }")
+    page.open("about:blank", "true")
+    page.open(address("paint.html"), ready)
+    page.ask(page_tools)
+    page.ask("for (const [k, v] of [[0, 0], [1, 0], [2, 0], [3, 0.003]]) choose($(`exact-${k}`), v)")  # a peak far above, and tails far below all that was measured
+    page.wait("document.querySelector('#measured .dots') && $('measured').innerText.includes('at the edge')")
+    expect(page.ask(f"({outside})('measured')") == 0, "predicted against measured stays within its frame")
+    expect(page.ask("document.querySelectorAll('#measured .axis').length") > 4, "between lines that tell its values")
+    page.open("about:blank", "true")
+    page.open(address("dull.html"), ready)
+    lines = page.ask("[...document.querySelectorAll('#cut text[text-anchor=end]')].map((t) => Number(t.textContent))")
+    expect(len(lines) >= 4 and all(b / a < 3 for a, b in zip(lines, lines[1:])), f"a cut of one decade has lines within it: {lines}")
+    boxes = page.ask("[...document.querySelectorAll('.slider input[type=number]')].map((n) => { n.value = '0.0038174'; return n.scrollWidth > n.clientWidth; })")
+    expect(not any(boxes), "boxes of numbers show their digits")
+
+
+def limits(page):
+    """What a fit says of each value stands under its slider."""
+    page.open("about:blank", "true")
+    page.open(address("limits.html"), ready)
+    said = page.ask("Object.fromEntries([...document.querySelectorAll('.slider')].map((s) => [s.querySelector('label').textContent, [s.innerText, s.querySelectorAll('.interval').length, s.querySelector('.interval')?.offsetWidth / s.querySelector('.track').offsetWidth]]))")
+    for name, words, bar in (("kd.450", "fit: 95 % interval 0.1 to 0.3", 1), ("kd.550", "fit: at the end of its range, and the data push beyond it", 0), ("kd.650", "fit: not known; dark", 0),
+                             ("alpha", "fit: best value for this model; the model is too wrong to bound it", 0), ("f0.450", "fit: at most 0.09 (95 %); values down to 0 do as well", 1),
+                             ("f0.550", "fit: at least 0.02 (95 %)", 1), ("f0.650", "held by the fit", 0)):
+        expect(name in said and words in said[name][0] and said[name][1] == bar, f"{name}: {said.get(name)}, expected {words}")
+    expect(said["f0.550"][2] > 0.8, f"the bar of a lower limit reaches to the end: {said['f0.550']}")
+    expect(page.ask("[...$('channel').options].map((o) => o.textContent)") == ["450", "550", "650"], "channels have their own names")
+    expect(json.loads(page.ask("document_text()"))["channels"] == ["450", "550", "650"], "in the JSON that is copied, too")
+    expect("kd.650" in page.ask("$('surfaces').innerText"), "what is not known is said beside the model")
+    page.ask("swap([['eon'], ['ggx', 'smith_ggx.correlated', 'schlick']])")
+    expect(page.ask("document.querySelectorAll('.interval').length") == 0 and "fit:" not in page.ask("$('model').innerText") and "kd.650" not in page.ask("$('surfaces').innerText"), "of another model the fit says nothing")
+    page.ask("$('undo').click()")
+    expect(page.ask("document.querySelectorAll('.interval').length") == 3, "until it is back")
 
 
 def every_model(page):
@@ -293,14 +388,24 @@ def play(page):
 
 def bad_addresses(page):
     for bad, words in (("#%7Bjunk", "cannot be shown"), ("#%ZZ", "cannot be shown"), ("#" + "[1]", "cannot be shown"),
-                       ('#{"i":[{"n":"<b>x</b>","s":"ggx/none_such/schlick","v":{}}]}', "none_such"), ('#{"i":[{"t":7}]}', "neither a model nor a table"), ('#{"i":[]}', "one to eight"), ('#{"i":[null]}', "cannot be shown"),
-                       ('#{"i":[{"t":0},{"t":0}]}', "twice"), ('#{"i":[{"s":"lambert","v":{"kd":"x"}}]}', "cannot be shown"),
+                       ('#{"i":[{"n":"<b>x</b>","s":"ggx/none_such/schlick","v":{}}]}', "none_such"), ('#{"i":[{"t":7,"n":"x.csv"}]}', "it shows x.csv, which this page does not hold"), ('#{"i":[]}', "one to eight"), ('#{"i":[null]}', "neither a model nor a table"), ("#null", "one to eight"),
+                       ('#{"i":[{"s":"lambert","f":{"parameters":{"kd":[7]}}}]}', "it was not made by a page of gonio explore"), ('#{"i":[{"s":"lambert"}],"k":{"rows":7}}', "it was not made by a page of gonio explore"),
+                       ('#{"i":[{"s":"lambert","v":{"kd":"x"}}]}', "cannot be shown"),
                        ('#{"i":[{"s":"lambert","v":{"kd":[7,7,7]}}]}', "kd")):
         page.open("about:blank", "true")
         page.open(address("plain.html") + bad, ready)
         said = page.ask("$('status').textContent")
-        expect(words in said, f"{bad}: {said}")
+        expect(words in said and "undefined" not in said and " of null" not in said, f"{bad}: {said}")
         expect(page.ask("items.length === 1 && document.querySelector('path.curve') !== null"), f"{bad}: the page works")
+        if "x.csv" in bad:
+            page.open("about:blank", "true")
+            page.open(address("dull.html") + '#{"i":[{"t":0},{"t":0}]}', ready)
+            expect("a table twice" in page.ask("$('status').textContent"), "a table is shown once")
+            page.open("about:blank", "true")
+            page.open(address("dull.html") + '#{"i":[{"t":7,"n":"x.csv"},{"t":0,"n":"dull.csv"},{"s":"eon"}],"a":2}', ready)
+            expect("x.csv, too" in page.ask("$('status').textContent") and page.ask("items.length === 2 && active === 1"), "what the page does not hold is named, and the rest is shown")
+            page.open("about:blank", "true")
+            page.open(address("plain.html") + bad, ready)
         expect(page.ask("document.querySelector('b') === null || !document.querySelector('h1 b, #status b')"), f"{bad}: a name is no markup")
 
 
@@ -317,6 +422,10 @@ with Browser(1200, 900) as page:
     page.open(address("plain.html"), ready)
     page.ask(page_tools)
     every_model(page)
+    names(page)
+    by_keys(page)
+    frames(page)
+    limits(page)
     bad_addresses(page)
     hostile(page)
     complaints += page.problems(folder.as_uri())

@@ -64,6 +64,18 @@ TEST(Explore, PageDoesInABrowserWhatItSays) {
   ASSERT_EQ(gonio(f, "fit t.csv -o fit.json --quiet").code, 0);
   ASSERT_EQ(gonio(f, "explore t.csv fit.json disney -o paint.html").code, 0);
   ASSERT_EQ(gonio(f, "explore -o plain.html").code, 0);
+  gonio(f,
+        "synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.9 f0=0.04 kd=0.3 --layout "
+        "hemisphere -o dull.csv");
+  ASSERT_EQ(gonio(f, "explore dull.csv -o dull.html").code, 0);
+  f.write("limits.json",
+          R"({"schema": "gonio.fit/1", "model": "lambert+ggx/smith_ggx.correlated/schlick",
+"channels": ["450", "550", "650"], "parameters": {
+"kd": {"value": [0.2, 1, null], "ci95": [[0.1, 0.3], null, null], "status": ["free", "at_bound", "not_identifiable"], "limit": [null, null, null], "reason": ["", "", "dark"]},
+"alpha": {"value": 0.3, "ci95": [0, 1], "status": "unbounded", "limit": null, "reason": "best value for this model; the model is too wrong to bound it"},
+"roughness": {"value": 0.5477},
+"f0": {"value": [0.01, 0.04, 0.04], "ci95": [null, null, null], "status": ["upper_limit", "lower_limit", "fixed"], "limit": [0.09, 0.02, null], "reason": ["values down to 0 do as well", "", ""]}}})");
+  ASSERT_EQ(gonio(f, "explore dull.csv limits.json -o limits.html").code, 0);
   const std::string name = "'<img src=x onerror=alert(1)>.csv'";
   ASSERT_EQ(gonio(f, "explore ./" + name + " -o hostile.html", "cp t.csv " + name + "; ").code, 0);
   play_with(f, "explore_page.py");

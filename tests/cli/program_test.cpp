@@ -64,6 +64,17 @@ TEST(Program, FindsTheSameResidualsInFitAndCompareAlsoWhereValuesAreZero) {
   EXPECT_EQ(fit["residuals"], compared["residuals"]);
 }
 
+TEST(Program, ComparesAFitOfSomeChannelsOnThese) {
+  const Folder f;
+  gonio(f, std::string("synth ") + paint + " --layout hemisphere --noise 0.02 -o t.csv");
+  const auto fit = gonio(f, "fit t.csv --channels r b -o two.json --json").json();
+  const auto compared = gonio(f, "compare t.csv two.json --json");
+  ASSERT_EQ(compared.code, 0) << compared.err;
+  EXPECT_EQ(compared.json()["residuals"], fit["residuals"]);
+  EXPECT_NE(gonio(f, "compare t.csv two.json").out.find("channels r, b, those of two.json"),
+            std::string::npos);
+}
+
 TEST(Program, GivesTheSameFilesForASeedWhateverTheThreads) {
   const Folder f;
   for (const char* jobs : {"1", "2"}) {

@@ -113,7 +113,10 @@ TEST(PageRequest, RefusesWhatTheProgramRefuses) {
   EXPECT_HAS(refused({{"do", "fly"}, {"file", file}}, Exit::bad_input), "read, fit or models");
   EXPECT_HAS(
       refused({{"do", "fit"}, {"file", file}, {"options", {{"no_such", {"1"}}}}}, Exit::usage),
-      "no_such");
+      "no option '--no-such'; nearest: --");
+  EXPECT_EQ(
+      refused({{"do", "fit"}, {"file", file}, {"options", {{"fix", json::array()}}}}, Exit::usage),
+      "--fix has no value");
   EXPECT_HAS(
       refused({{"do", "fit"}, {"file", file}, {"options", {{"metric", {"none"}}}}}, Exit::usage),
       "metric: found none, expected one of");

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "base/base64.h"
+#include "base/file.h"
 #include "explore/surface.h"
 #include "fitting/result/document.h"
 #include "refusal.h"
@@ -51,8 +52,7 @@ TEST(ExplorePage, HoldsTheModuleAndFetchesNothing) {
 }
 
 TEST(ExplorePage, AHostileNameStaysText) {
-  ExploredModel m{
-      "</script><img src=x onerror=alert(1)>.json", {test::glossy(), {"r", "g", "b"}}, {}};
+  ExploredModel m{"</script><img src=x onerror=alert(1)>.json", {test::glossy(), {"r", "g", "b"}}};
   const std::string html = explore_page_html({m});
   EXPECT_EQ(html.find("<img"), html.npos);
   EXPECT_EQ(explored_data(html)["items"][0]["name"], m.name.substr(m.name.rfind('/') + 1));
@@ -117,20 +117,31 @@ TEST(ExplorePage, TableWithFewSamplesFillsTheCellsThatItHas) {
   EXPECT_HAS(test::refusal([&] { explore_table("t.csv", t); }), "none that is valid");
 }
 
-TEST(ExplorePage, FitHasItsIntervals) {
+TEST(ExplorePage, TableHasItsAlbedosWhereverTheLightCameFrom) {
+  Table t = test::filled(test::in_out_grid(), test::glossy());
+  ExploredTable e = explore_table("t.csv", t);
+  ASSERT_FALSE(e.albedo.empty());
+  const auto points = [&] { return explored_data(explore_page_html({e}))["items"][0]["albedo"]; };
+  const auto at_0 = points();
+  EXPECT_EQ(at_0.size(), e.albedo.size());
+  for (auto& a : e.albedo) a.phi_i_deg = 180;
+  EXPECT_EQ(points(), at_0);
+  // Several azimuths of one zenith angle are one point.
+  e.albedo.insert(e.albedo.begin() + 1, e.albedo[0]);
+  EXPECT_EQ(points(), at_0);
+}
+
+TEST(ExplorePage, FitHasItsDocument) {
   const test::Folder f;
   const auto fit = f.write(
       "fit.json", R"({"schema": "gonio.fit/1", "model": "lambert+ggx/smith_ggx.correlated/schlick",
 "channels": ["r", "g", "b"], "parameters": {"kd": {"value": [0.2, 0.3, 0.4], "ci95": [[0.1, 0.3], null, [0.35, 0.45]]},
 "alpha": {"value": 0.3, "ci95": [0.25, 0.36]}, "roughness": {"value": 0.5477}, "f0": {"value": [0.04, 0.04, 0.04], "ci95": null}}})");
-  const ExploredModel m = explore_model(fit, {});
-  const auto one = explored_data(explore_page_html({m, m}))["items"];
-  EXPECT_EQ(one[0]["intervals"]["alpha"], nlohmann::json::parse("[[0.25, 0.36]]"));
-  EXPECT_EQ(one[0]["intervals"]["kd"],
-            nlohmann::json::parse("[[0.1, 0.3], [null, null], [0.35, 0.45]]"));
-  EXPECT_FALSE(one[0]["intervals"].contains("f0"));
-  EXPECT_EQ(one[0]["values"]["kd"], nlohmann::json::parse("[0.2, 0.3, 0.4]"));
-  EXPECT_EQ(one[0]["said"], "");
+  const auto one = explored_data(explore_page_html({explore_model(fit, {})}))["items"][0];
+  EXPECT_EQ(one["document"], InputFile(fit).read_rest());
+  EXPECT_EQ(one["values"]["kd"], nlohmann::json::parse("[0.2, 0.3, 0.4]"));
+  EXPECT_EQ(one["name"], "fit.json");
+  // What the fit could not determine begins where the other channels are, or where a fit begins.
   const auto open = f.write(
       "open.json", R"({"schema": "gonio.fit/1", "model": "lambert+ggx/smith_ggx.correlated/schlick",
 "channels": ["r", "g", "b"], "parameters": {"kd": {"value": [0.2, null, 0.4]}, "alpha": {"value": null}, "roughness": {"value": null},
@@ -138,12 +149,10 @@ TEST(ExplorePage, FitHasItsIntervals) {
   const auto filled = explored_data(explore_page_html({explore_model(open, {})}))["items"][0];
   EXPECT_NEAR(filled["values"]["kd"][1], 0.3, 1e-12);
   EXPECT_EQ(filled["values"]["alpha"][0], 0.3);
-  EXPECT_EQ(filled["said"], "The fit has no value for kd.g, alpha: it begins with another.");
-  EXPECT_EQ(one[0]["name"], "fit.json");
-  EXPECT_EQ(one[1]["name"], "fit.json, 2");
+  // A model that nobody named is called by its terms, by the page itself.
   EXPECT_EQ(explored_data(explore_page_html({explore_model(
                 "lambert+ggx/smith_ggx.correlated/schlick", {}, 1)}))["items"][0]["name"],
-            "Lambert + GGX (Schlick)");
+            "");
 }
 
 }  // namespace

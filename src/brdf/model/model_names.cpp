@@ -1,4 +1,4 @@
-#include "reports/pages/model_names.h"
+#include "brdf/model/model_names.h"
 
 #include <algorithm>
 #include <array>
