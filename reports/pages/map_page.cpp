@@ -1,11 +1,13 @@
 #include "reports/pages/map_page.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <optional>
 
 #include "base/quantile.h"
 #include "base/text.h"
+#include "brdf/model/model_names.h"
 #include "image/display.h"
 #include "image/image_file.h"
 #include "reports/page/numbers.h"
@@ -95,6 +97,8 @@ std::vector<FigureMap> pictures_of(const Cells& c) {
       }
       all.push_back(picture_of(c, *colour + " in colour", std::move(bright)));
       all.back().value = "luminance of " + *colour;
+      if (std::ranges::any_of(all.back().values, [](double v) { return !std::isfinite(v); }))
+        all.back().note = "grey where it is not known";
       all.back().colours = std::move(bytes);
     }
   for (std::size_t k = 0; k < c.names.size(); ++k) {
@@ -149,10 +153,12 @@ std::string map_page_html(const MapDocument& d) {
   const Cells cells = cells_of(d.path);
   const auto texels = static_cast<double>(d.width * d.height);
   Page out{"", "fit_map", "Map of " + file_name(d.path),
-           fmt::format("{} fitted to {} × {} texels", d.model, d.width, d.height)};
+           fmt::format("{} fitted to {} × {} texels", model_names(std::array{d.model})[0], d.width,
+                       d.height)};
   out.first.emplace_back(Prose{
       fmt::format(
-          "**{}** of the texels converged. {}", percent(static_cast<double>(d.converged) / texels),
+          "`{}`: **{}** of the texels converged. {}", d.model,
+          percent(static_cast<double>(d.converged) / texels),
           d.judged == 0 ? "Whether the model fits is not judged: the noise is not known."
           : misfits(d)
               ? fmt::format("**{}** are off by more than noise leaves: the model does not "
