@@ -194,6 +194,7 @@ void TexelRegister::gather_lanes(std::span<const std::size_t> texels) {
 }
 
 void TexelRegister::gather(std::span<const std::size_t> texels) {
+  at_.clear();
   const bool in_a_row = texels.back() - texels.front() + 1 == width_ &&
                         std::ranges::is_sorted(texels, std::less_equal<>());
   if (is_shared_ && in_a_row && gather_shared(texels.front())) return;
@@ -215,6 +216,7 @@ void TexelRegister::in_logarithms() {
 }
 
 void TexelRegister::turn(const float* deg) {
+  if (is_at(deg, 1)) return;
   for (std::size_t l = 0; l < width_; ++l) {
     const double t = double{deg[l]} * degree;
     const auto c = static_cast<float>(std::cos(t)), s = static_cast<float>(std::sin(t));
@@ -225,7 +227,15 @@ void TexelRegister::turn(const float* deg) {
   make_angles();
 }
 
+bool TexelRegister::is_at(const float* unknowns, std::size_t count) {
+  const std::span now(unknowns, count * padding);
+  if (std::ranges::equal(now, at_)) return true;
+  at_.assign(now.begin(), now.end());
+  return false;
+}
+
 void TexelRegister::tilt(const float* tilt) {
+  if (is_at(tilt, 2)) return;
   // n = m/|m|, m = n₀ + t x₀ + u y₀; what t and u do to n, a = (x₀ − n (n·x₀))/|m|, in the frame of
   // n.
   for (std::size_t l = 0; l < width_; ++l) {

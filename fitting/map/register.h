@@ -50,6 +50,8 @@ class TexelRegister {
 
  private:
   void read_shared();
+  /// Whether angles are made for these turns or tilts already; else they are about to be.
+  bool is_at(const float* unknowns, std::size_t count);
   bool gather_shared(std::size_t first);
   void gather_lanes(std::span<const std::size_t> texels);
   void put_frames(std::span<const std::size_t> texels);
@@ -72,6 +74,7 @@ class TexelRegister {
   Column<float> light_, view_, cosine_, slope_;
   Column<float> frame_, base_;        ///< tangents, bitangents and normals: as tried, and as given
   Column<float> turn_;                ///< see TexelDirections
+  std::vector<float> at_;             ///< turns or tilts that angles are of; empty: as given
   std::vector<std::uint8_t> usable_;  ///< [sample][lane]: above the surface
   LaneSamples samples_;
   Column<float> signal_;

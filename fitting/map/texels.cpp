@@ -20,6 +20,8 @@ namespace {
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 /// Steps of the first round, after which texels that are not there yet wait for a register full of their kind; and of all.
 constexpr int first_steps = 8, most_steps = 150;
+/// Steps from each of several starts, after which the lowest goes on.
+constexpr int steps_of_each = 16;
 
 /// Texel on its way, between two rounds.
 struct Waiting {
@@ -144,8 +146,11 @@ void LaneFit::begin_tilted(std::span<const TexelTask::Start> group,
   std::array<std::array<float, padding>, 2> cost;
   for (auto& c : cost) c.fill(std::numeric_limits<float>::infinity());
   for (auto& x : best) x.assign(n() * padding, 0.0F);
-  const auto look = [&] {
-    const auto x = start_of(group);
+  std::vector<TexelTask::Start> some;  // of the cone: the descent finds the rest
+  for (std::size_t k = 1; k < group.size(); k += 3) some.push_back(group[k]);
+  if (some.empty()) some.assign(group.begin(), group.end());
+  const auto look = [&](std::span<const TexelTask::Start> shapes) {
+    const auto x = start_of(shapes);
     for (std::size_t l = 0; l < padding; ++l) {
       const float here = state_.cost[l];
       const std::size_t at = here < cost[0][l] ? 0 : here < cost[1][l] ? 1 : 2;
@@ -158,18 +163,18 @@ void LaneFit::begin_tilted(std::span<const TexelTask::Start> group,
       cost[at][l] = here;
     }
   };
-  look();
+  look(group);
   for (const auto tilt : {TexelRegister::Tilt::matt, TexelRegister::Tilt::highlight}) {
     register_.find_tilt(tilt, std::span(u.low).subspan(first), std::span(u.high).subspan(first),
                         tilt_.data());
-    look();
+    look(group);
   }
   for (const double steep : {0.2, 0.45})
     for (int k = 0; k < 6; ++k) {
       const double turn = (k + (steep > 0.3 ? 0.5 : 0)) * std::numbers::pi / 3;
       std::fill_n(tilt_.data(), padding, static_cast<float>(steep * std::cos(turn)));
       std::fill_n(tilt_.data() + padding, padding, static_cast<float>(steep * std::sin(turn)));
-      look();
+      look(some);
     }
   for (auto& x : best) begins.push_back(std::move(x));
 }
@@ -264,11 +269,8 @@ void LaneFit::fit(std::span<const std::size_t> texels,
     std::fill_n(state_.cost, padding, std::numeric_limits<float>::infinity());
     for (float* const row : {state_.promise, state_.done}) std::fill_n(row, padding, 0.0F);
     if (begins.size() > 1) std::fill_n(state_.damping, padding, 0.0F);
-    descend(begins.size() > 1 ? most_steps : steps);
-    if (begins.size() == 1) return;
-    for (std::size_t l = 0; l < width_; ++l)
-      if (state_.done[l] == 0) state_.done[l] = 2;
-    take_lowest(lowest);
+    descend(steps);
+    if (begins.size() > 1) take_lowest(lowest);
   }
 }
 
@@ -425,7 +427,9 @@ void LaneFit::fit_all() {
     const std::size_t count = std::min(width_, in_.texels - first);
     for (std::size_t l = 0; l < count; ++l) texels[l] = first + l;
     fill_up(count);
-    fit(texels, {}, first_steps);
+    fit(texels, {},
+        task_.starts.size() > 1 || task_.asked.refine_normals || has_middles_ ? steps_of_each
+                                                                              : first_steps);
     for (std::size_t l = 0; l < count; ++l) {
       if (state_.done[l] != 0) continue;
       auto& w = waiting_.emplace_back(Waiting{first + l, {}, state_.damping[l]});
