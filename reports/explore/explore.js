@@ -63,9 +63,8 @@ const usual = "lambert+ggx/smith_ggx.correlated/schlick";
 const first_view = () => ({ theta: 45, phi: 0, phid: 90, ev: 0, log: true, slog: false, channel: 1, light: [0.5, 0.6, 0.62], lamp: "", turn: [0.6, 0.45] });
 const settings_of = (values) => Object.entries(values).map(([name, v]) => `${name}=${v.join(",")}`).join(" ");
 const is_model = (item) => item && item.kind === "model";
-const terms_name = (about) => about.name ?? about.spec;
 /// Name that a person gave; without one a model is called by its terms.
-const plain_name = (item) => (!is_model(item) ? item.name : item.name ? `${item.name}${item.changed ? ", changed" : ""}` : terms_name(item.about));
+const plain_name = (item) => (!is_model(item) ? item.name : item.name ? `${item.name}${item.changed ? ", changed" : ""}` : item.about.name);
 /// What an entry is called everywhere, numbered where two would be called the same.
 function label(item) {
   const name = plain_name(item), before = items.slice(0, Math.max(items.indexOf(item), 0)).filter((one) => plain_name(one) === name).length;

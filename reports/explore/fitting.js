@@ -160,7 +160,7 @@ function advice(said) {
   return p;
 }
 function fit_panel({ about, changed, fit }) {
-  const head = `${terms_name(about)} leaves a typical factor of ${times(fit.log_rms)} on ${fit.file}${fit.left_out ? `, without ${fit.left_out}` : ""}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
+  const head = `${about.name} leaves a typical factor of ${times(fit.log_rms)} on ${fit.file}${fit.left_out ? `, without ${fit.left_out}` : ""}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
   return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...fit.next.map(advice), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
 }
 function comparison_panel(d) {
