@@ -255,8 +255,14 @@ FitResult fit_and_judge(const Table& t,
   if (!t.mask.empty()) {
     d.mask = t.mask;
     const auto left_out = d.masked["left_out_by_mask"] = values_left_out(t);
-    auto& without = d.masked[std::string(name_of(Mask::not_finite))];
-    if (t.grid()) without -= std::min(left_out, without);
+    if (t.grid()) {
+      auto& without = d.masked[std::string(name_of(Mask::not_finite))];
+      without -= std::min(left_out, without);
+    } else {  // samples of a list are gone, whatever else kept them from being used
+      for (std::size_t m = 1; m < names_of<Mask>.size(); ++m)
+        if (const auto n = values_left_out(t, static_cast<Mask>(m)); n > 0)
+          d.masked[std::string(names_of<Mask>[m])] += n;
+    }
   }
   d.input_path = t.path;
   d.input_format = t.format;

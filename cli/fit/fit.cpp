@@ -91,10 +91,11 @@ void print(const FitDocument& d) {
     say("{:<14}{}\n", r.of + "/" + r.to,
         with_error(r.value, (r.ci95_high - r.ci95_low) / (2 * 1.96), r.ci95_low, r.ci95_high));
   const auto& chi2 = d.residuals.chi2_per_freedom;
-  say_below("", fmt::format("log RMS {:.4g}, RMS {:.4g} 1/sr{}; standard errors: {}",
-                            d.residuals.log_rms, d.residuals.rms,
-                            chi2 ? fmt::format(", χ² per degree of freedom {:.3g}", *chi2) : "",
-                            d.intervals));
+  say_below("",
+            fmt::format(
+                "typical factor ×/÷ {:.3g}; log RMS {:.4g}, RMS {:.4g} 1/sr{}; standard errors: {}",
+                std::exp(d.residuals.log_rms), d.residuals.log_rms, d.residuals.rms,
+                chi2 ? fmt::format(", χ² per degree of freedom {:.3g}", *chi2) : "", d.intervals));
   for (const auto& s : d.sensitivity) {
     std::string changes;
     for (const auto& [name, change] : s.relative_change) {

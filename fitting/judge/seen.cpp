@@ -65,7 +65,12 @@ void keep_to_highlights(TableFacts& facts,
   }
   const auto peak = facts.peak().peak;
   if (!peak || peak->resolved) return;
-  u[i].keep_limit(upper_limit, peak->alpha, "the samples do not resolve the highlight");
+  u[i].keep_limit(upper_limit, peak->alpha,
+                  value > peak->alpha
+                      ? fmt::format("the fitted alpha, {:.3g}, is wider than the highlight of the "
+                                    "table: the model does not meet it",
+                                    value)
+                      : "the samples do not resolve the highlight");
 }
 
 /// A width at the low end of all there are: narrower ones, or no lobe, would do as well.

@@ -189,18 +189,19 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
   if (!m.told) return {};
   std::string size = typical_factor(m.size);
   for (std::size_t k = 0; k < m.follows.size(); ++k)
-    size += (k == 0 ? ", along " : k + 1 < m.follows.size() ? ", " : " and ") + m.follows[k];
+    size += (k == 0 ? ", varying with " : k + 1 < m.follows.size() ? ", " : " and ") + m.follows[k];
   std::vector<std::string> all{"the model misses the table by a factor of " + size +
-                               "; intervals include this"};
+                               "; intervals allow for it"};
   if (const auto& c = m.worst_cell)
-    all.push_back(fmt::format(
-        "the largest deviation that is no noise is near theta_h {:.2g}°, theta_d {:.2g}°: {}",
-        (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
-        (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
-        c->difference > 1      ? factor(1 + c->difference) + " times as bright"
-        : c->difference > 0    ? percent(c->difference) + " too bright"
-        : c->difference > -0.5 ? percent(-c->difference) + " too dark"
-                               : factor(1 / (1 + c->difference)) + " times too dark"));
+    all.push_back(
+        fmt::format("the largest systematic deviation is near theta_h {:.2g}°, theta_d {:.2g}°: "
+                    "the model is {}",
+                    (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
+                    (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
+                    c->difference > 1 ? factor(1 + c->difference) + " times as bright as the table"
+                    : c->difference > 0    ? percent(c->difference) + " too bright"
+                    : c->difference > -0.5 ? percent(-c->difference) + " too dark"
+                                           : factor(1 / (1 + c->difference)) + " times too dark"));
   return all;
 }
 

@@ -116,11 +116,20 @@ Points warnings(const FitDocument& d,
       if (std::ranges::find(of, r.status) != of.end()) labels.push_back(r.label);
     return fmt::to_string(fmt::join(labels, ", "));
   };
+  const auto reasons = [&](std::initializer_list<ParameterStatus> of) {
+    std::vector<std::string> all;
+    for (const auto& r : rows)
+      if (std::ranges::find(of, r.status) != of.end() && !r.reason.empty() &&
+          std::ranges::find(all, r.reason) == all.end())
+        all.push_back(r.reason);
+    return all.empty() ? std::string() : fmt::format(": {}", fmt::join(all, "; "));
+  };
   using enum ParameterStatus;
   if (const auto who = named({not_identifiable}); !who.empty())
     warn("Not known:", who + ". These data do not determine it; no value is given.");
   if (const auto who = named({upper_limit, lower_limit}); !who.empty())
-    warn("Only a limit:", who + ". The data give one end, at 95 %.");
+    warn("Only a limit:", who + fmt::format(" have only one end of an interval, at 95 %{}.",
+                                            reasons({upper_limit, lower_limit})));
   if (const auto who = named({at_bound}); !who.empty())
     warn("At the end of its range:", who + ". The data push beyond it.");
   if (const auto tied = strongest_correlation(d); tied && std::abs(tied->rho) > 0.95)
@@ -245,8 +254,8 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
       "Parameters",
       fmt::format(
           "Values are written to the second digit of their standard error. Intervals: "
-          "{}{}. In the pictures the dot is the value, the bar its interval. An arrow says that it "
-          "goes on, or that the limit has one side.{}",
+          "{}{}. In the pictures the dot is the value, the bar its interval. An arrow marks an "
+          "interval that leaves the picture, or a limit on one side.{}",
           d.intervals, d.clusters > 0 ? fmt::format(", {} clusters", count_text(d.clusters)) : "",
           with_truth ? " The table is synthetic: the orange tick is the value it was made with."
                      : ""),

@@ -50,7 +50,8 @@ std::string map_words(const ResidualMap& m) {
     return degrees_text((edges[i] + edges[i + 1]) / 2);
   };
   return fmt::format(
-      "{} cells: half of them within {}. The single cell that is furthest off: {} at half-vector "
+      "{} cells: half of them within {}. The cell that is furthest off, noise and all: {} at "
+      "half-vector "
       "angle {}, difference angle {}.",
       count, factor_text(median(sizes)), ratio_text(m.mean[worst]),
       middle(m.theta_h_deg, worst / nd), middle(m.theta_d_deg, worst % nd));
@@ -187,16 +188,16 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   }
   const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
   const bool has_error = data != h.albedo.end() && data->error > 0;
-  std::string words =
-      fmt::format("The fitted model reflects at most {} of the light, at θ_i {}{}.{}", share(top),
-                  degrees_text(p.theta_i_deg[at]),
-                  known(p.data_albedo[at][channel])
-                      ? fmt::format("; the table there {}{}", share(p.data_albedo[at][channel]),
-                                    has_error ? "\u202f±\u202f" + significant(data->error, 2) : "")
-                      : "",
-                  above(top) ? " Above 1 more light leaves than arrives: no surface "
-                               "does that."
-                             : "");
+  std::string words = fmt::format(
+      "The fitted model reflects {} of the light at θ_i {}, the most of the angles compared{}.{}",
+      share(top), degrees_text(p.theta_i_deg[at]),
+      known(p.data_albedo[at][channel])
+          ? fmt::format("; the table there {}{}", share(p.data_albedo[at][channel]),
+                        has_error ? "\u202f±\u202f" + significant(data->error, 2) : "")
+          : "",
+      above(top) ? " Above 1 more light leaves than arrives: no surface "
+                   "does that."
+                 : "");
   std::vector<double> ratios;
   for (const double r : p.peak_ratio)
     if (known(r)) ratios.push_back(r);
@@ -397,7 +398,7 @@ Section solver(const FitDocument& d, Pictures& pictures) {
              {"robust loss", words(d.robust)}}});
   return {"How the solver got there",
           s.iterations == 0 && s.termination == "converged"
-              ? "The search before it had already reached the optimum."
+              ? "The global search had already reached the optimum: the solver took no step."
               : s.message,
           {std::move(beside)}};
 }

@@ -68,12 +68,12 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
       fmt::format("Half of the pixels are within ΔE2000 {} (most under {}), 95\u202f% within {}{}.",
                   delta_e_text(most.median), w.light, delta_e_text(tail),
                   &widest == &w ? "" : fmt::format(" (most under {})", widest.light));
-  const auto spacing = most.spacing_p95 > 0.5 * most.p95
-                           ? fmt::format(
-                                 " Much of that is the spacing of the table's samples and not the "
-                                 "{}: by itself it puts 95\u202f% within {}.",
-                                 name.empty() ? "model" : name, delta_e_text(most.spacing_p95))
-                           : std::string();
+  const double apart = widest.models[best].spacing_p95;
+  const auto spacing =
+      apart > 0.5 * tail
+          ? fmt::format(" Under {}, the spacing of the table's samples makes {} of these {}.",
+                        widest.light, delta_e_text(apart), delta_e_text(tail))
+          : std::string();
   if (most.median > just_seen && most.spacing_median > 0.5 * most.median)
     return fmt::format(
         "The table's samples lie too far apart to tell whether {} looks like it. {}{}{}", who, half,
@@ -126,9 +126,9 @@ page::Table numbers(const Lights& shown, const Spheres& s, std::string_view name
   const bool spacing = std::ranges::any_of(s.lights, [](const auto& l) {
     return !l.models.empty() && std::isfinite(l.models[0].spacing_median);
   });
-  t.head = columns(
-      spacing ? "light|>covered|>ΔE2000, half below|>95\u202f% below|>only spacing, half|>95\u202f%"
-              : "light|>covered|>ΔE2000, half below|>95\u202f% below");
+  t.head = columns(spacing ? "light|>covered|>ΔE2000, half below|>95\u202f% below|>spacing only, "
+                             "half below|>95\u202f% below"
+                           : "light|>covered|>ΔE2000, half below|>95\u202f% below");
   for (const auto& l : s.lights) {
     const auto of = [&](double ModelSphere::*what) {
       return l.models.empty() ? Cell("–") : text(l.models[0].*what);

@@ -288,7 +288,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
                             significant(h.largest)));
   fact("noise floor", h.noise_floor > 0
                           ? significant(h.noise_floor) + " 1/sr, from the negative values"
-                          : "none: no negative values that are noise");
+                          : "not found");
   if (h.reciprocity_error)
     fact("reciprocity", fmt::format("{} median difference of exchanged directions{}{}",
                                     percent(*h.reciprocity_error),
@@ -334,8 +334,8 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
                                      {"seed", fmt::to_string(t.truth->seed)}}});
   }
   return {"What the table can be trusted for",
-          "Only from the data, before any fit. Coverage is the share of the cosine-weighted "
-          "hemisphere that valid samples speak for.",
+          "These figures need no fit. Coverage is the share of the cosine-weighted hemisphere near "
+          "valid samples.",
           {Group{"columns", {std::move(facts), std::move(beside)}}}};
 }
 

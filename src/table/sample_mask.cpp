@@ -285,12 +285,12 @@ void leave_out(Table& t, std::string_view expression) {
   t.left_out = std::move(rest);
 }
 
-std::size_t values_left_out(const Table& t) {
+std::size_t values_left_out(const Table& t, Mask otherwise) {
   if (!t.left_out) return 0;
   const SampleAngles at(*t.left_out);
   std::size_t count = 0;
   for (const auto& plane : t.left_out->values)
-    for (std::size_t i = 0; i < plane.size(); ++i) count += mask(at(i), plane[i]) == Mask::valid;
+    for (std::size_t i = 0; i < plane.size(); ++i) count += mask(at(i), plane[i]) == otherwise;
   return count;
 }
 

@@ -20,8 +20,8 @@ namespace gonio {
 /// is left.
 void leave_out(Table&, std::string_view expression);
 
-/// Number of values that a fit would have used, had they not been left out.
-std::size_t values_left_out(const Table&);
+/// Number of values that were left out: those that a fit would have used otherwise, or that another reason keeps from it, too.
+std::size_t values_left_out(const Table&, Mask otherwise = Mask::valid);
 
 /// What options that take such an expression say of it.
 inline constexpr const char* mask_in_words =

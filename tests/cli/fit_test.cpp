@@ -42,7 +42,7 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
     EXPECT_TRUE(l.size() <= 64 || l.find(' ', l.find_first_not_of(' ')) == l.npos) << l;
   const std::string piped = gonio(f, "fit t.csv").out;
   EXPECT_NE(piped.find("beware  the model misses"), piped.npos);
-  EXPECT_NE(piped.find("; intervals include this\nbeware  the largest deviation that is no noise "
+  EXPECT_NE(piped.find("; intervals allow for it\nbeware  the largest systematic deviation "
                        "is near theta_h "),
             piped.npos)
       << piped;

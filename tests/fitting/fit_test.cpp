@@ -381,6 +381,13 @@ TEST(Fit, SaysWhatAnExpressionLeftOut) {
   EXPECT_GT(left_out, 0U);
   EXPECT_EQ(d.values_used + left_out, before.values_used);
   EXPECT_EQ(d.masked.at("not_finite"), before.masked.at("not_finite"));
+  // What the horizon keeps out, too, is not lost from the count.
+  Table below = whole;
+  auto& list = std::get<DirectionList>(below.where);
+  for (std::size_t i = 0; i < 5; ++i) list.theta_o_deg[i] = 90;
+  leave_out(below, "theta_o > 60");
+  const auto counted = fit(below, o).document;
+  EXPECT_EQ(counted.masked.at("below_horizon"), 5U * 3U);
 }
 
 TEST(Fit, IsTheSameDocumentForAnyNumberOfThreads) {

@@ -71,14 +71,14 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   EXPECT_EQ(misfit_in_words(m),
             (std::vector<std::string>{
                 "the model misses the table by a factor of 1.088, "
-                "along theta_h, theta_d and grazing angles; "
-                "intervals include this",
-                "the largest deviation that is no noise is near theta_h 16°, theta_d 68°: "
+                "varying with theta_h, theta_d and grazing angles; "
+                "intervals allow for it",
+                "the largest systematic deviation is near theta_h 16°, theta_d 68°: the model is "
                 "30 % too dark"}));
   m.worst_cell->difference = 2.4;
-  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": 3.4 times as bright"));
+  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is 3.4 times as bright as the table"));
   m.worst_cell->difference = 1.0 / 150 - 1;
-  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": 150 times too dark"));
+  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is 150 times too dark"));
   m.told = false;
   EXPECT_TRUE(misfit_in_words(m).empty());
 }
