@@ -255,7 +255,7 @@ class MapDrawing {
   /// The numbers in the cells of a small matrix.
   std::string cell_texts(std::size_t slice) const {
     if (m_.x.names.empty() || m_.y.names.empty()) return "";
-    std::string out = R"(<g font-size="11" text-anchor="middle">)";
+    std::string out = R"(<g class="numbers" font-size="11" text-anchor="middle">)";
     for (std::size_t i = 0; i < m_.x.size(); ++i)
       for (std::size_t j = 0; j < m_.y.size(); ++j) {
         const double v = value(slice, i, j);
