@@ -51,6 +51,19 @@ char kind_of(const FigureMap& m) {
   return m.diverging ? 'd' : 'q';
 }
 
+/// Number at a place of the scale of colours; its ends say where there are values beyond.
+std::string scale_text(const FigureMap& m, const ColourScale& colours, double at) {
+  const std::string text = tick_text(std::strtod(fmt::format("{:.3g}", at).c_str(), nullptr));
+  constexpr double rounding = 1e-9;
+  const auto any = [&](auto beyond) { return std::ranges::any_of(m.values, beyond); };
+  if (at == colours.high && any([&](double v) { return v > at * (1 + rounding); }))
+    return "≥\u202f" + text;
+  if (at == colours.low && at != 0 &&
+      any([&](double v) { return v < at - rounding * std::abs(at); }))
+    return "≤\u202f" + text;
+  return text;
+}
+
 class MapDrawing {
  public:
   MapDrawing(const FigureMap& m, svg::Box box)
@@ -136,9 +149,9 @@ class MapDrawing {
     for (const double t : colours_.ticks) {
       const double part = colour_part(m_, colours_, t);
       const char* anchor = part < 0.02 ? "start" : part > 0.98 ? "end" : "middle";
-      out +=
-          fmt::format(R"(<text x="{}" y="{}" text-anchor="{}">{}</text>)",
-                      number(left + part * scale_length), number(top + 24), anchor, tick_text(t));
+      out += fmt::format(R"(<text x="{}" y="{}" text-anchor="{}">{}</text>)",
+                         number(left + part * scale_length), number(top + 24), anchor,
+                         scale_text(m_, colours_, t));
     }
     return out + fmt::format(R"(<text class="in" x="{}" y="{}">{}</text>)", number(left),
                              number(top + 44), markup_text(m_.value));
@@ -351,7 +364,7 @@ std::string page_scale(const FigureMap& m) {
   std::string out = fmt::format(R"(<div class="scale {}"><i></i><b>)", kind_of(m));
   for (const double t : colours.ticks)
     out += fmt::format(R"(<span style="left:{:.3g}%">{}</span>)", 100 * colour_part(m, colours, t),
-                       tick_text(t));
+                       scale_text(m, colours, t));
   return out + "</b>" + markup_text(m.value) + "</div>";
 }
 
