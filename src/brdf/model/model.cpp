@@ -52,7 +52,8 @@ ModelSpec resolve_base_color(ModelSpec spec, std::vector<Setting>& settings) {
   const Setting* base = find(settings, "base_color");
   const Setting* metallic = find(settings, "metallic");
   if (!base && !metallic) return spec;
-  if (compose(spec, 1).find("base_color")) return spec;  // its terms read them
+  const Model own = compose(spec, 1);
+  if (own.find("base_color") || own.find("metallic")) return spec;  // its terms read them
   for (const char* other : {"f0", "kd", "eta", "k", "metal"})
     if (find(settings, other))
       throw wrong_usage(fmt::format("base_color and metallic set {} themselves", other));
@@ -76,10 +77,11 @@ ModelSpec resolve_base_color(ModelSpec spec, std::vector<Setting>& settings) {
 
 /// Parameter that a name sets by another measure: alpha by roughness, eta of a dielectric by f0; empty: none.
 std::string aliased(const Model& m, const std::string& name) {
+  if (m.find(name)) return "";
   if (is_roughness(name) && m.find(alpha_name(name))) return alpha_name(name);
   const auto [stem, lobe] = parse_parameter(name);
   const auto eta = to_text({"eta", lobe});
-  const bool dielectric = !m.find(name) && m.find(eta) && !m.find(to_text({"k", lobe}));
+  const bool dielectric = m.find(eta) && !m.find(to_text({"k", lobe}));
   return stem == "f0" && dielectric ? eta : "";
 }
 
@@ -102,7 +104,7 @@ void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
         return IorFromF0<double>::apply(std::array{f0})[0];
       });
   }
-  if (const Setting* s = find(settings, "metal")) {
+  if (const Setting* s = find(settings, "metal"); s && !m.find("metal")) {
     const Material* metal = find_metal(s->text);
     if (!metal) {
       std::vector<std::string_view> names;
@@ -163,9 +165,10 @@ BoundModel bind_model(const ModelSpec& spec,
                       std::optional<std::size_t> channels,
                       std::span<const std::string> grey) {
   const ModelSpec resolved = resolve_base_color(resolve_preset(spec, settings), settings);
-  if (find(settings, "f0") && find(settings, "eta"))
+  const Model grey_model = compose(resolved, 1);
+  if (find(settings, "f0") && find(settings, "eta") && !grey_model.find("f0"))
     throw wrong_usage("f0 and eta say the same: give one of them");
-  resolve_aliases(compose(resolved, 1), settings);
+  resolve_aliases(grey_model, settings);
   std::size_t longest = 1;
   for (const auto& s : settings) longest = std::max(longest, s.values.size());
   const std::size_t n = channels.value_or(longest > 1 ? longest : 3);
@@ -203,7 +206,7 @@ bool takes_parameter(std::string_view spec, const std::string& name) {
     return true;
   const Model m = compose(preset ? preset->spec : spec, 1);
   const auto has = [&](const std::string& p) { return m.find(p) || !aliased(m, p).empty(); };
-  if (name == "metal") return m.find("eta") && m.find("k");
+  if (name == "metal" && !m.find(name)) return m.find("eta") && m.find("k");
   return has(name) || ((name == "base_color" || name == "metallic") && has("f0") && m.find("kd"));
 }
 
