@@ -27,17 +27,24 @@ std::string_view what_it_gives(const foreign::Function& f) {
     case foreign::Stands::lobe:
       break;
   }
-  return "a whole model";
+  return !takes_direction(f) ? "a helper, which takes no direction"
+         : takes_light(f)    ? "a whole model"
+                             : "a value of one direction";
 }
 
+constexpr std::string_view unclear_text =
+    " (not clear: an albedo is near neither 1 nor π; --includes says it)";
+
 std::string includes_text(const foreign::Function& f) {
-  if (f.stands != foreign::Stands::lobe) return "";
+  if (f.stands != foreign::Stands::lobe || !takes_light(f)) return "";
   const std::string what = f.includes == "nothing"  ? "no cosine and no factor of π"
                            : f.includes == "cosine" ? "the cosine NoL, which is taken out"
                            : f.includes == "pi"     ? "a factor of π, which is taken out"
                                                     : "NoL and a factor of π, which are taken out";
   return fmt::format("{}{}", what,
-                     f.guessed ? " (guessed from reciprocity and albedo; --includes says it)" : "");
+                     f.unclear   ? unclear_text
+                     : f.guessed ? " (guessed from reciprocity and albedo; --includes says it)"
+                                 : "");
 }
 
 Json json_of(const FileFunction& of) {
@@ -50,6 +57,7 @@ Json json_of(const FileFunction& of) {
   j["stands_for"] = name_of(f.stands);
   j["includes"] = f.includes;
   j["guessed"] = f.guessed;
+  j["unclear"] = f.unclear;
   j["anisotropic"] = f.anisotropic;
   j["operations"] = of.operations.total();
   Json arguments = Json::array(), parameters = Json::array(), notes = Json::array();

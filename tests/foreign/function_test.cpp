@@ -139,6 +139,55 @@ TEST(Function, WhatAValueIncludesIsGuessedAndSaid) {
   EXPECT_NEAR(value_of(f, {0.6}, angles)[0], 0.6 / std::numbers::pi, 1e-15);
 }
 
+/// A diffuse part and a highlight that has three times too much, as many old shaders have it.
+std::string diffuse_and_phong(const std::string& kd, const std::string& over) {
+  return "// n 1 200 30\n// kd 0 " + kd +
+         " 0.3\n// ks 0 1 0.4\nvec3 f(vec3 L, vec3 V, vec3 N, vec3 kd, vec3 ks, float n) {\n"
+         "  return kd" +
+         over + " + ks * (n + 2.0) * 0.5" + over +
+         " * pow(max(dot(N, normalize(L + V)), 0.0), n);\n}\n";
+}
+
+TEST(Function, PiIsGuessedByOneColourAtATimeWhateverItsBounds) {
+  SKIP_WITHOUT_SHADERS;
+  for (const std::string high : {"1", "0.5"}) {
+    EXPECT_EQ(Written(diffuse_and_phong(high, " / 3.14159265358979")).function().includes,
+              "nothing")
+        << high;
+    EXPECT_EQ(Written(diffuse_and_phong(high, "")).function().includes, "pi") << high;
+  }
+  EXPECT_FALSE(Written(diffuse_and_phong("1", "")).function().unclear);
+  const auto f =
+      Written("// ks 0 1 0.1\nfloat f(vec3 L, vec3 V, vec3 N, float ks) { return ks * 0.6; }\n")
+          .function();
+  EXPECT_EQ(f.includes, "nothing");
+  EXPECT_TRUE(f.unclear) << "an albedo of 1.9 is near neither 1 nor π";
+}
+
+TEST(Function, AHelperTakesNoDirectionAndAnAlbedoNoLight) {
+  SKIP_WITHOUT_SHADERS;
+  const auto helper = Written("float sqr(float x) { return x * x; }\n").function();
+  EXPECT_FALSE(takes_direction(helper));
+  EXPECT_EQ(helper.includes, "nothing");
+  const auto tangent = Written("vec3 to_linear(vec3 x) { return x * x; }\n").function();
+  EXPECT_FALSE(takes_direction(tangent));
+  const auto albedo = Written(
+                          "// f0 0 1 0.04\nvec3 env(vec3 f0, float NoV) { return f0 + (1.0 - f0) * "
+                          "exp(-9.0 * NoV); }\n")
+                          .function();
+  EXPECT_TRUE(takes_direction(albedo));
+  EXPECT_FALSE(takes_light(albedo));
+}
+
+TEST(Function, AStructOfFourNumbersIsNoColour) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "struct A { float a, b, c, d; };\nA angles(vec3 N, vec3 L, vec3 V) { A x; x.a = dot(N, L); "
+      "x.b = dot(N, V); x.c = 1.0; x.d = 1.0; return x; }\n"
+      "float f(float NoL, float NoV, float NoH) { return 0.1 * NoL; }\n");
+  EXPECT_EQ(list_functions(w.path).size(), 1U);
+}
+
 TEST(Function, MaskingIsGOrVByItsValueAlongTheNormal) {
   SKIP_WITHOUT_SHADERS;
   const Written w(
