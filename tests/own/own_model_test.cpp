@@ -73,6 +73,39 @@ void expect_close(const std::vector<std::vector<double>>& f,
       EXPECT_NEAR(f[c][i] / g[c][i], 1, within) << c << ' ' << i;
 }
 
+/// A narrow highlight of a file, whose peak lies between the nodes of a rule for diffuse terms.
+TEST(OwnModel, TheAlbedoOfANarrowHighlightIsSeen) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string model = file() + ":brdf";
+  const std::vector<double> mu{0.05, 0.1, 0.2, 0.7, 1};
+  for (const char* alpha : {"0.001", "0.005", "0.03", "0.2", "1"}) {
+    const std::vector<std::string> words{std::string("alpha=") + alpha, "f0=1", "kd=0.3"};
+    const auto mine = directional_albedo(bind_model(model, parse_settings(words), 1), mu);
+    const auto other = directional_albedo(bind_model(ours, parse_settings(words), 1), mu);
+    for (std::size_t i = 0; i < mu.size(); ++i)
+      EXPECT_NEAR(mine[i].value[0], other[i].value[0], mine[i].error + other[i].error + 1e-7)
+          << alpha << " " << mu[i];
+  }
+}
+
+/// A parameter of a file is what the file says, also where the catalogue has one of that name.
+TEST(OwnModel, MetallicAndRoughnessBesideAlphaAreTheFilesOwn) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path =
+      folder.write("names.glsl",
+                   "// metallic 0 1 0.5\n// roughness 0 1 0.5\n// alpha 0 1 0.5\n// metal 0 1 "
+                   "0.5\n// f0 0 1 0.5\n// eta 1 2 1.5\n"
+                   "float brdf(float NoL, float NoV, float NoH, float metallic, float roughness, "
+                   "float alpha, float metal, float f0, float eta) {\n"
+                   "  return 0.01 * (metallic + 2.0 * roughness + 4.0 * alpha + 8.0 * metal + f0 + "
+                   "eta) + 0.0 * NoL * NoV * NoH;\n}\n");
+  const std::vector<std::string> words{"metallic=1", "roughness=1", "alpha=0",
+                                       "metal=0.5",  "f0=0",        "eta=1"};
+  const auto b = bind_model(path + "{includes=nothing}", parse_settings(words), 1);
+  EXPECT_NEAR(evaluate(b, drawn(1))[0][0], 0.08, 1e-12);
+}
+
 TEST(OwnModel, IsTheModelThatItsTextSays) {
   SKIP_WITHOUT_SHADERS;
   const auto at = drawn(300);
