@@ -448,8 +448,9 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
 std::string text_of(const FunctionAudit& a) {
   if (!a.of.function) return fmt::format("{}: {}\n", a.of.entry.function, a.of.entry.refused);
   const auto& f = *a.of.function;
-  std::string s = fmt::format("{}, line {}: {} operations a sample\n", foreign::text_of(f.name),
-                              f.line, a.of.operations.total());
+  std::string s =
+      fmt::format("{}{}: {} operations a sample\n", foreign::text_of(f.name),
+                  f.line > 0 ? fmt::format(", line {}", f.line) : "", a.of.operations.total());
   const auto line = [&](const char* name, const std::string& text) {
     if (!text.empty()) s += fmt::format("  {:<16}{}\n", name, text);
   };

@@ -65,7 +65,9 @@ Json json_of(const FileFunction& of) {
     arguments.push_back({{"name", a.name}, {"stands_for", a.stands_for}});
   for (const auto& p : f.parameters) {
     Json q{{"name", p.name}, {"per_channel", p.per_channel}};
-    if (p.bounded) q["low"] = p.range.low, q["high"] = p.range.high, q["default"] = p.start;
+    if (p.bounded)
+      q["low"] = p.range.low, q["high"] = p.range.high,
+      q["default"] = p.colour ? Json(*p.colour) : Json(p.start);
     parameters.push_back(q);
   }
   for (const auto& n : f.notes) notes.push_back({{"line", n.line}, {"note", n.text}});
@@ -200,11 +202,15 @@ std::string text_of(const FileFunctions& all) {
     line("arguments", fmt::format("{}", fmt::join(directions, ", ")));
     for (const auto& p : f.parameters)
       line(&p == f.parameters.data() ? "parameters" : "",
-           p.bounded
-               ? fmt::format("{}{} in [{:g}, {:g}], default {:g}", p.name,
-                             p.per_channel ? " (a colour)" : "", p.range.low, p.range.high, p.start)
-               : fmt::format("{}{}: no bounds; a comment \"// {} LOW HIGH DEFAULT\" gives them",
-                             p.name, p.per_channel ? " (a colour)" : "", p.name));
+           p.bounded ? fmt::format("{}{} in [{:g}, {:g}], default {}", p.name,
+                                   p.per_channel ? " (a colour)" : "", p.range.low, p.range.high,
+                                   p.colour ? fmt::format("{:g}", fmt::join(*p.colour, ", "))
+                                            : fmt::format("{:g}", p.start))
+                     : fmt::format("{}{}: no bounds; {} gives them", p.name,
+                                   p.per_channel ? " (a colour)" : "",
+                                   all.file.ends_with(".spv")
+                                       ? "--bounds " + p.name + "=LOW,HIGH"
+                                       : "a comment \"// " + p.name + " LOW HIGH DEFAULT\""));
     if (f.float_constants) line("constants", "in float: HLSL and SPIR-V hold no more digits");
     for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));
   }

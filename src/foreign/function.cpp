@@ -177,13 +177,26 @@ std::map<std::string, Id> functions_of(const SpirvModule& m) {
   return all;
 }
 
+/// Line of the first array of a text with more elements than are taken, which a module names without its line; 0: none.
+int line_of_array(std::string_view text) {
+  constexpr double most = 4096;
+  int line = 1;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '\n') ++line;
+    if (text[k] != '[') continue;
+    const auto close = std::min(text.find(']', k), text.size());
+    if (number_from<double>(text.substr(k + 1, close - k - 1)).value_or(0) > most) return line;
+  }
+  return 0;
+}
+
 std::shared_ptr<const Compiled> compiled(Source source) {
   auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr, {}});
   try {
     c->module = std::make_unique<SpirvModule>(compile(c->source));
     c->functions = functions_of(*c->module);
   } catch (const Refused& r) {
-    refuse(c->source.path, r);
+    refuse(c->source.path, r.line > 0 ? r : Refused(r.what(), line_of_array(c->source.text)));
   } catch (const std::out_of_range&) {
     throw bad_input(c->source.path, "the whole file", "SPIR-V that refers to what it has not",
                     "a module of functions");
@@ -197,6 +210,14 @@ std::shared_ptr<const Compiled> file_of(const std::string& path) {
   auto& known = files()[path];
   if (!known) known = compiled(read_source(path));
   return known;
+}
+
+[[noreturn]] void refuse_nameless(const Compiled& c, const std::string& path) {
+  throw bad_input(
+      path, "the whole file", "no function that gives a number or a colour",
+      c.source.language == Language::spirv
+          ? "one with its name: some compilers leave names out, as glslang does with -g0"
+          : "one");
 }
 
 /// The function that a file means: one called BRDF, or else the last that takes two directions.
@@ -220,8 +241,7 @@ std::string main_function(const Compiled& c, const std::string& path) {
     if ((of_two && f.line > line) || all.size() == 1) last = name, line = f.line;
   }
   if (last) return *last;
-  if (names.empty())
-    throw bad_input(path, "the whole file", "no function that gives a number or a colour", "one");
+  if (names.empty()) refuse_nameless(c, path);
   throw wrong_usage(fmt::format("{}: which function? it has: {}", path, fmt::join(names, ", ")));
 }
 
@@ -280,6 +300,7 @@ class Builder {
                return p.name.starts_with(a.name);
              });
     });
+    forget_unread_globals(m_.functions().at(id->second));
     f_.stands = as_.value_or(stands());
     finish();
     return std::move(f_);
@@ -407,8 +428,11 @@ class Builder {
                     ? std::sqrt(p.range.low * p.range.high)
                     : (p.range.low + p.range.high) / 2;
     if (is_given && given->second.size() > 2) p.start = given->second[2];
-    if (colour && d && d->start.size() == 3)
+    if (colour && d && d->start.size() == 3 && !(is_given && given->second.size() > 2)) {
       p.start = (d->start[0] + d->start[1] + d->start[2]) / 3;
+      p.colour = {d->start[0], d->start[1], d->start[2]};
+      for (double& x : *p.colour) x = std::clamp(x, p.range.low, p.range.high);
+    }
     p.start = std::clamp(p.start, p.range.low, p.range.high);
     f_.parameters.push_back(std::move(p));
   }
@@ -431,6 +455,28 @@ class Builder {
   bool reads_angle(std::string_view name) const {
     return std::ranges::any_of(f_.programs,
                                [&](const Program& p) { return reads(p, true, angle(name)); });
+  }
+  /// Directions of the file's variables count as arguments where the function reads them.
+  void forget_unread_globals(const SpirvFunction& function) {
+    const auto is_own = [&](const Argument& a) {
+      return std::ranges::any_of(function.parameters,
+                                 [&](const auto& p) { return m_.name(p.first) == a.name; });
+    };
+    const auto is_read = [&](const std::string& direction) {
+      for (const auto& [d, cosines] : {std::pair{"L", std::array{"nol", "xol", "yol"}},
+                                       {"V", {"nov", "xov", "yov"}},
+                                       {"H", {"noh", "xoh", "yoh"}}})
+        if (direction == d)
+          return std::ranges::any_of(cosines, [&](const char* c) { return reads_angle(c); });
+      return true;
+    };
+    const auto own = f_.arguments;
+    std::erase_if(f_.arguments, [&](const Argument& a) {
+      const bool is_twice = std::ranges::any_of(own, [&](const Argument& b) {
+        return is_own(b) && b.name != a.name && b.stands_for == a.stands_for;
+      });
+      return a.stands_for != "parameter" && !is_own(a) && (is_twice || !is_read(a.stands_for));
+    });
   }
   /// Decides by the arguments what the function stands for; where it takes both cosines, by its name.
   Stands stands() const {
@@ -659,8 +705,7 @@ std::vector<Entry> list_functions(const std::string& file) {
     all.push_back(std::move(e));
   }
   std::ranges::sort(all, {}, [](const Entry& e) { return std::pair(e.line, e.function); });
-  if (all.empty())
-    throw bad_input(file, "the whole file", "no function that gives a number or a colour", "one");
+  if (all.empty()) refuse_nameless(*c, file);
   return all;
 }
 

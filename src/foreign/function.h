@@ -51,6 +51,8 @@ struct FunctionParameter {
   std::string name;
   Range range{0, 1};
   double start = 0.5;
+  std::optional<std::array<double, 3>>
+      colour{};  ///< the default of each channel, where they differ
   bool per_channel = false;
   bool bounded = false;  ///< by the file, or by its reader
 };

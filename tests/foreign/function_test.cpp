@@ -111,6 +111,7 @@ TEST(Function, AnExplorersFileHasItsBoundsAndItsBoolsAreKnown) {
   const auto f = w.function();
   ASSERT_EQ(f.parameters.size(), 2U);
   EXPECT_EQ(f.parameters[0].name, "tint");
+  EXPECT_EQ(f.parameters[0].colour, (std::array{0.2, 0.4, 0.6}));
   EXPECT_EQ(f.parameters[1].range.high, 100);
   EXPECT_EQ(f.line, 8);
   const auto at = [&](const std::string& rest) {
@@ -179,6 +180,14 @@ TEST(Function, AHelperTakesNoDirectionAndAnAlbedoNoLight) {
   EXPECT_FALSE(takes_light(albedo));
 }
 
+TEST(Function, VariablesThatItDoesNotReadAreNoArguments) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "uniform vec3 l, v;\nfloat f(vec3 L, vec3 N) { return dot(L, N) * l.z; }\nfloat D(float NoH) "
+      "{ return NoH + 0.0 * dot(vec3(0.0), v); }\n");
+  for (const auto& a : w.function(":f").arguments) EXPECT_NE(a.name, "l") << "L is the same";
+}
+
 TEST(Function, AStructOfFourNumbersIsNoColour) {
   SKIP_WITHOUT_SHADERS;
   const Written w(
@@ -231,7 +240,19 @@ TEST(Function, RefusalsNameThePersonsLine) {
     return Written(before + "float f(float NoL, float a) {\n" + body + "}\n").refused(":f");
   };
   EXPECT_HAS(of("  return b;\n"), "line 2");
-  EXPECT_HAS(of("  return f(NoL, a);\n"), "ecursi");
+  EXPECT_HAS(of("  return f(NoL, a);\n"), "line 1: found recursion: f calls itself");
+  EXPECT_HAS(of("  return h(a);\n",
+                "float h(float x);\nfloat g(float x) { return h(x); }\nfloat h(float x) {\n  "
+                "return g(x);\n}\n"),
+             "found recursion");
+  EXPECT_HAS(of("  return h(a);\n",
+                "float h(float x);\nfloat g(float x) { return h(x); }\nfloat h(float x) {\n  "
+                "return g(x);\n}\n"),
+             "line ");
+  const auto slope = of("  return dFdx(NoL);\n");
+  EXPECT_HAS(slope, "line 2: found 'dFdx' : a difference between pixels");
+  EXPECT_EQ(slope.find("GL_NV"), slope.npos) << slope;
+  EXPECT_HAS(of("  float x[50000];\n  x[1] = a;\n  return x[1];\n"), "line 2: found an array of");
   EXPECT_HAS(of("  float x = a;\n  while (x > 0.1) x *= 0.5;\n  return x;\n"),
              "line 3: found a loop that");
   EXPECT_HAS(of("  return texture(t, vec2(NoL)).x;\n", "uniform sampler2D t;\n"),
@@ -242,7 +263,7 @@ TEST(Function, RefusalsNameThePersonsLine) {
                 .line,
             3);
   EXPECT_HAS(Written("float f(float NoL) { return NoL").refused(), "the end of the text");
-  EXPECT_HAS(of("  discard;\n"), "line 2");
+  EXPECT_HAS(of("  discard;\n"), "line 2: found 'discard' : a pixel's shader has it");
   EXPECT_HAS(of("  int i = int(NoL * 3.0);\n  return float(i);\n"), "line 2: found an integer");
   EXPECT_HAS(of("  float x[3];\n  x[5] = a;\n  return x[0];\n"), "line 3");
   EXPECT_HAS(of("  return a;\n", "#include \"other.glsl\"\n"), "line 1");

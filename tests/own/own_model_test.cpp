@@ -88,6 +88,36 @@ TEST(OwnModel, TheAlbedoOfANarrowHighlightIsSeen) {
   }
 }
 
+/// A file's default colour has three channels; one whose channels it mixes is set by its name, too.
+TEST(OwnModel, AColourOfAFileKeepsItsChannels) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto file_of = [&](const char* name, const std::string& value) {
+    return folder.write(
+        name,
+        "analytic\n::begin parameters\ncolor tint 0.5 0.2 0.1\n::end parameters\n::begin shader\n"
+        "vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y) { return " +
+            value + " / 3.14159265358979; }\n::end shader\n");
+  };
+  const std::array mu{0.5};
+  const auto own = directional_albedo(bind_model(file_of("own.brdf", "tint"), {}), mu)[0].value;
+  EXPECT_NEAR(own[0], 0.5, 1e-6);
+  EXPECT_NEAR(own[1], 0.2, 1e-6);
+  EXPECT_NEAR(own[2], 0.1, 1e-6);
+  const auto mixed = file_of("mixed.brdf", "mix(tint, vec3(dot(tint, vec3(1.0)) / 3.0), 0.5)");
+  const std::vector<std::string> words{"tint=0.6,0.3,0.3"};
+  const auto set = directional_albedo(bind_model(mixed, parse_settings(words)), mu)[0].value;
+  EXPECT_NEAR(set[0], 0.5, 1e-6);
+  EXPECT_NEAR(set[1], 0.35, 1e-6);
+  EXPECT_HAS(
+      refusal(
+          [&] {
+            bind_model(mixed, parse_settings(std::vector<std::string>{"tint=1", "tint_r=1"}));
+          },
+          Exit::usage),
+      "same parameter");
+}
+
 /// A parameter of a file is what the file says, also where the catalogue has one of that name.
 TEST(OwnModel, MetallicAndRoughnessBesideAlphaAreTheFilesOwn) {
   SKIP_WITHOUT_SHADERS;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/formula/widths.h"
 #include "brdf/model/presets.h"
@@ -85,8 +86,50 @@ std::string aliased(const Model& m, const std::string& name) {
   return stem == "f0" && dielectric ? eta : "";
 }
 
+/// Channels of a colour that a file's function mixes, which are parameters each: tint_r, tint_g and tint_b by the name tint.
+bool is_mixed_colour(const Model& m, const std::string& name) {
+  return !m.find(name) && m.find(name + "_r") && m.find(name + "_g") && m.find(name + "_b");
+}
+void divide_mixed_colours(const Model& m, std::vector<Setting>& settings) {
+  std::vector<Setting> all;
+  for (auto& s : settings) {
+    if (!is_mixed_colour(m, s.name)) {
+      all.push_back(std::move(s));
+      continue;
+    }
+    if (s.values.size() != 1 && s.values.size() != 3)
+      throw wrong_usage(fmt::format("{}: {} values where one or 3 fit", s.name, s.values.size()));
+    for (std::size_t c = 0; c < 3; ++c) {
+      Setting one = s;
+      one.name = fmt::format("{}_{}", s.name, "rgb"[c]);
+      one.values = {s.values[s.values.size() == 1 ? 0 : c]};
+      if (find(settings, one.name))
+        throw wrong_usage(fmt::format("{} and {} are the same parameter", s.name, one.name));
+      all.push_back(std::move(one));
+    }
+  }
+  settings = std::move(all);
+}
+
+/// Sets the colours that a file gives for defaults.
+void start_colours(BoundModel& b) {
+  const auto& m = b.model;
+  std::vector<const TermUse*> uses;
+  for (const auto& t : m.diffuse) uses.push_back(&t);
+  for (const auto& l : m.lobes) uses.insert(uses.end(), {&l.ndf, &l.masking, &l.fresnel});
+  for (const auto* t : uses) {
+    const auto* f = foreign_term(t->term);
+    for (std::size_t k = 0; f && k < f->function->parameters.size(); ++k)
+      if (const auto& p = m.parameters[t->parameters[k]];
+          p.count == 3 && f->function->parameters[k].colour)
+        std::ranges::copy(*f->function->parameters[k].colour,
+                          b.values.begin() + static_cast<std::ptrdiff_t>(p.first));
+  }
+}
+
 /// Names that stand for others: roughness, f0 of a dielectric, metal.
 void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
+  divide_mixed_colours(m, settings);
   for (auto& s : settings) {
     const auto of = aliased(m, s.name);
     const auto replace = [&](const std::string& by, auto&& map) {
@@ -177,6 +220,7 @@ BoundModel bind_model(const ModelSpec& spec,
   b.values.resize(b.model.value_count);
   for (const auto& p : b.model.parameters)
     std::fill_n(b.values.begin() + static_cast<std::ptrdiff_t>(p.first), p.count, p.about->start);
+  start_colours(b);
   for (const auto& s : settings) {
     const ModelParameter* p = b.model.find(s.name);
     if (!p) {
@@ -205,7 +249,9 @@ bool takes_parameter(std::string_view spec, const std::string& name) {
       std::ranges::find(preset->parameters, name, &Parameter::name) != preset->parameters.end())
     return true;
   const Model m = compose(preset ? preset->spec : spec, 1);
-  const auto has = [&](const std::string& p) { return m.find(p) || !aliased(m, p).empty(); };
+  const auto has = [&](const std::string& p) {
+    return m.find(p) || is_mixed_colour(m, p) || !aliased(m, p).empty();
+  };
   if (name == "metal" && !m.find(name)) return m.find("eta") && m.find("k");
   return has(name) || ((name == "base_color" || name == "metallic") && has("f0") && m.find("kd"));
 }
