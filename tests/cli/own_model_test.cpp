@@ -116,7 +116,7 @@ TEST(OwnModelCommands, AGuessThatChangesValuesIsSaidByEveryCommand) {
       "// kd 0 1 0.5\nfloat lit(vec3 N, vec3 L, vec3 V, float kd) { return kd * dot(N, L); }\n");
   const std::string says = "guess.glsl: guessed to include the cosine NoL and π";
   for (const std::string words :
-       {"albedo guess.glsl --mu 0.5", "synth guess.glsl --set kd=0.5 -o t.csv",
+       {"albedo guess.glsl --mu 0.5", "synth guess.glsl --set kd=0.5 --layout random -o t.csv",
         "fit t.csv --model guess.glsl"})
     EXPECT_NE(gonio(f, words).err.find(says), std::string::npos) << words;
   EXPECT_EQ(gonio(f, "albedo guess.glsl --includes cosine,pi --mu 0.5").err, "");
