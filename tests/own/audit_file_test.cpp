@@ -2,6 +2,7 @@
 #include "reports/own/audit_file.h"
 
 #include <algorithm>
+#include <map>
 
 #include "foreign/compile.h"
 #include "refusal.h"
@@ -17,9 +18,15 @@ using test::Folder;
 #define SKIP_WITHOUT_SHADERS \
   if (!foreign::can_compile()) GTEST_SKIP() << "this build reads no shaders"
 
-FunctionAudit audited(const std::string& text) {
-  const Folder folder;
-  return audit_file(folder.write("case.glsl", text))[0];
+/// The audit of a text's first function, once in a run.
+const FunctionAudit& audited(const std::string& text) {
+  static std::map<std::string, FunctionAudit> known;
+  const auto [at, fresh] = known.try_emplace(text);
+  if (fresh) {
+    const Folder folder;
+    at->second = audit_file(folder.write("case.glsl", text))[0];
+  }
+  return at->second;
 }
 std::string slips(const FunctionAudit& a) {
   std::string all;
@@ -312,13 +319,6 @@ TEST(AuditFile, AClampIsFoundWithTheRoughnessBelowWhichItBites) {
 
 TEST(AuditFile, KOfDirectLightIsNamed) {
   SKIP_WITHOUT_SHADERS;
-  const auto a = audited(
-      "// roughness 0.05 1 0.5\nfloat G1(float c, float k) { return c / (c * (1.0 - k) + k); "
-      "}\nfloat "
-      "G_Smith(float NoL, float NoV, float roughness) {\n  float k = (roughness + 1.0) * "
-      "(roughness + "
-      "1.0) / 8.0;\n  return G1(NoL, k) * G1(NoV, k);\n}\n");
-  static_cast<void>(a);
   const Folder folder;
   const auto path = folder.write("g.glsl",
                                  "// roughness 0.05 1 0.5\nfloat G1(float c, float k) { return c / "
