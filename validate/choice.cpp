@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json/describe.h"
+#include "base/letters.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/fitted_model.h"
 #include "brdf/model/own_files.h"
@@ -415,6 +416,14 @@ std::vector<Setting> fresnel_settings(std::string_view id, const Substance& of) 
   throw wrong_usage(fmt::format("{} is not for {}", id, s.material));
 }
 
+/// The model's parameter of a name, whatever its case: F0 of a shader is f0.
+std::string named_as_in(const Model& m, std::string_view name) {
+  if (m.find(name)) return std::string(name);
+  for (const auto& p : m.parameters)
+    if (same_letters(p.name, name)) return p.name;
+  return std::string(name);
+}
+
 /// Adds the width that the domain's roughness means, where none is set: of a preset whose own parameters are set by these,
 /// of others by those of the terms.
 void add_width(std::vector<Setting>& settings, const Shipped& s, const Model& m, double roughness) {
@@ -431,8 +440,14 @@ void add_width(std::vector<Setting>& settings, const Shipped& s, const Model& m,
     settings.push_back({"alpha", {alpha}});
   else if (m.find("alpha_x"))
     settings.push_back({"alpha_x", {alpha}}), settings.push_back({"alpha_y", {alpha}});
-  else if (m.find("roughness"))
-    settings.push_back({"roughness", {roughness}});
+  else if (const auto own = named_as_in(m, "alpha"); m.find(own))
+    settings.push_back({own, {alpha}});
+  else
+    for (const auto* name : {"roughness", "perceptualRoughness"})
+      if (const auto mine = named_as_in(m, name); m.find(mine)) {
+        settings.push_back({mine, {roughness}});
+        return;
+      }
 }
 
 }  // namespace
@@ -449,8 +464,10 @@ BoundModel bound(const Choice& c, const Shipped& s, const Substance& of, double 
     if (of.surface && !plain.lobes.empty())
       for (const auto& x : fresnel_settings(catalogue()[plain.lobes[0].fresnel.term].about->id, of))
         add(x);
-    for (const auto& x : of.settings)
+    for (auto x : of.settings) {
+      x.name = named_as_in(plain, x.name);
       if (x.name == "f0" || plain.find(x.name)) add(x);
+    }
     if (c.domain.roughness) add_width(settings, s, plain, roughness);
     auto model = bind_model(s.spec(), std::move(settings), 3);
     if (!c.domain.fits.empty())  // a default would be another material than the fit's

@@ -83,12 +83,12 @@ void print(const FitDocument& d) {
           p.value.size() == 1 ? p.name : fmt::format("{}.{}", p.name, d.channels[c]);
       const std::string value = value_in_words(p, c), status = status_in_words(p, c);
       if (status.empty())
-        say("{:<14}{}\n", name, value);
+        say("{:<13} {}\n", name, value);
       else
         say_below(fmt::format("{:<13} {:<27} ", name, value), status);
     }
   for (const auto& r : d.ratios.value_or(std::vector<Ratio>()))
-    say("{:<14}{}\n", r.of + "/" + r.to,
+    say("{:<13} {}\n", r.of + "/" + r.to,
         with_error(r.value, (r.ci95_high - r.ci95_low) / (2 * 1.96), r.ci95_low, r.ci95_high));
   const auto& chi2 = d.residuals.chi2_per_freedom;
   say_below("",

@@ -98,7 +98,9 @@ Exit run_file(const AuditCall& o) {
   } else {
     for (const auto& a : all) fmt::print("{}", text_of(a));
   }
-  return Exit::done;
+  const bool any =
+      std::ranges::any_of(all, [](const auto& a) { return a.of.function.has_value(); });
+  return any ? Exit::done : Exit::bad_input;
 }
 
 Exit run(const AuditCall& o) {

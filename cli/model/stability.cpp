@@ -6,6 +6,7 @@
 #include "cli/line/command.h"
 #include "cli/line/reading.h"
 #include "cli/line/terminal.h"
+#include "foreign/function.h"
 #include "reports/finding/words.h"
 #include "stability/answer.h"
 
@@ -84,7 +85,11 @@ void print(const Answer& a, const std::string& decides) {
   const auto line = [](const char* name, const std::string& text) {
     fmt::print("  {:<16}{}\n", name, text);
   };
-  fmt::print("{}, angles by {}, in {}\n", a.id, a.form, text_of(a.arithmetic));
+  // A file's whole model is no diffuse term, which is only where it stands in a sum.
+  constexpr std::string_view role = "diffuse.";
+  const bool is_own = a.id.starts_with(role) && foreign::is_name(a.id.substr(role.size()));
+  fmt::print("{}, angles by {}, in {}\n", is_own ? a.id.substr(role.size()) : a.id, a.form,
+             text_of(a.arithmetic));
   for (const auto& [name, ends] : a.domain)
     line(name.c_str(), fmt::format("{:.6g} to {:.6g}", ends[0], ends[1]));
   line(a.requirement.c_str(), fmt::format("{}: {}",
@@ -113,7 +118,7 @@ void print(const Answer& a, const std::string& decides) {
                                   from->requirement, evidence_of_least(*from)));
   for (const auto& l : a.least)
     line(&l == &a.least[0] ? "least" : "",
-         fmt::format("{:<16}{:<14}{:<34}{}", l.requirement,
+         fmt::format("{:<16}{:<14}{:<33} {}", l.requirement,
                      a.arithmetic.number != Number::half ? ""
                      : l.flush                           ? "flushed"
                                                          : "kept",

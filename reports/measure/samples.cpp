@@ -59,7 +59,9 @@ std::string joined(const std::string& a, const std::string& b) {
 }
 
 Row row(double theta_i, double phi_i, double theta_o, double phi_o) {
-  return frame_angles({direction(theta_i, phi_i), direction(theta_o, phi_o)});
+  Row r = frame_angles({direction(theta_i, phi_i), direction(theta_o, phi_o)});
+  for (double* c : {&r.nol, &r.nov, &r.noh, &r.voh}) *c = std::min(*c, 1.0);  // but for rounding
+  return r;
 }
 Row exchanged(Row r) {
   std::swap(r.nol, r.nov);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/json/describe.h"
@@ -27,6 +28,8 @@ namespace {
 using auditing::Row;
 using auditing::Values;
 
+constexpr double steepest = 0.035;  ///< cosine of 88°, the steepest view whose albedo is looked at
+
 void take_largest(std::optional<FoundAt>& w, double v, const std::string& at) {
   if (!w || v > w->value || std::isnan(v)) w = FoundAt{v, at};
 }
@@ -34,20 +37,121 @@ void take_smallest(std::optional<FoundAt>& w, double v, const std::string& at) {
   if (!w || v < w->value || std::isnan(w->value)) w = FoundAt{v, at};
 }
 
-/// Values of parameters that an audit combines: five widths, the ends and the default of others, colours at their upper end.
-std::vector<std::vector<double>> looked_at(std::span<const Parameter> parameters) {
+/// True of a parameter that scales the light: a colour, one channel of it, or f0, kd and their like.
+bool is_colour(const Parameter& p) {
+  const std::string_view name = p.name;
+  std::string n;
+  for (const char c : name)
+    if (c != '_') n += lower_case(c);
+  return p.per_channel || name.ends_with("_r") || name.ends_with("_g") || name.ends_with("_b") ||
+         std::ranges::any_of(std::array{"f0", "r0", "kd", "ks", "albedo", "diffuse", "specular"},
+                             [&](const char* begin) { return n.starts_with(begin); }) ||
+         n.find("color") != n.npos || n.find("colour") != n.npos;
+}
+
+/// A parameter's low end, default and high end.
+double low_of(const Parameter& p) {
+  return std::isnan(p.start) ? 0.05 : p.legal.low;
+}
+double usual_of(const Parameter& p) {
+  return std::isnan(p.start) ? 0.5 : p.start;
+}
+double high_of(const Parameter& p) {
+  return std::isnan(p.start) ? 1 : p.legal.high;
+}
+
+/// Five widths, both ends among them.
+std::vector<double> widths_of(const Parameter& p) {
+  auto at = values_between(p, 5);
+  at.front() = low_of(p);
+  at.back() = high_of(p);
+  return at;
+}
+
+using Settings = std::vector<std::vector<double>>;
+
+/// Values of parameters that laws are looked at with: five widths with the ends and the default of some others, colours at their
+/// upper ends; and each parameter at its ends with the others at their defaults.
+Settings looked_at(std::span<const Parameter> parameters) {
   const auto width = width_of(parameters);
+  const auto is_width = [&](const Parameter& p) { return width && &p == &parameters[*width]; };
   std::size_t rows = 1;
-  return auditing::combinations(parameters, [&](const Parameter& p) {
-    const bool bounded = !std::isnan(p.start), is_width = width && &p == &parameters[*width];
-    const auto at = is_width        ? values_between(p, 5)
-                    : p.per_channel ? std::vector{bounded ? p.legal.high : 1.0}
-                    : !bounded      ? std::vector{0.5}
-                    : rows > 200    ? std::vector{p.start}
-                                    : std::vector{p.legal.low, p.start, p.legal.high};
+  constexpr std::size_t many = 60;
+  auto all = auditing::combinations(parameters, [&](const Parameter& p) {
+    const auto at = is_width(p)    ? widths_of(p)
+                    : is_colour(p) ? std::vector{high_of(p)}
+                    : rows > many || std::isnan(p.start)
+                        ? std::vector{usual_of(p)}
+                        : std::vector{p.legal.low, p.start, p.legal.high};
     rows *= at.size();
     return at;
   });
+  std::vector<double> usual;
+  for (const auto& p : parameters) usual.push_back(usual_of(p));
+  for (const double w :
+       width ? std::vector{low_of(parameters[*width]), usual[*width], high_of(parameters[*width])}
+             : std::vector{0.0}) {
+    auto at = usual;
+    if (width) at[*width] = w;
+    all.push_back(at);
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      for (const double v : {low_of(parameters[k]), high_of(parameters[k])}) {
+        if (is_width(parameters[k])) continue;
+        auto one = at;
+        one[k] = v;
+        all.push_back(one);
+      }
+  }
+  return all;
+}
+
+/// Values of parameters with which albedos are integrated: of all colours at their lower bounds, of each alone at its upper one, and
+/// of all of them there.
+struct Furnace {
+  std::vector<double> dark, together;
+  std::vector<std::vector<double>> alone;
+};
+std::vector<Furnace> furnaces(std::span<const Parameter> parameters) {
+  const auto width = width_of(parameters);
+  // The channels of a colour are one.
+  const auto stem = [](std::string_view n) {
+    return n.ends_with("_r") || n.ends_with("_g") || n.ends_with("_b") ? n.substr(0, n.size() - 2)
+                                                                       : n;
+  };
+  std::vector<std::string_view> colours;
+  std::vector<double> usual;
+  for (const auto& p : parameters) {
+    usual.push_back(usual_of(p));
+    if (is_colour(p) && (colours.empty() || colours.back() != stem(p.name)))
+      colours.push_back(stem(p.name));
+  }
+  const auto with_colours = [&](std::vector<double> at, const auto& is_high) {
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      if (const auto& p = parameters[k]; is_colour(p))
+        at[k] = is_high(stem(p.name)) ? high_of(p) : low_of(p);
+    return at;
+  };
+  const auto every = [](std::string_view) { return true; };
+  const auto none = [](std::string_view) { return false; };
+  std::vector<Furnace> all;
+  for (const double w : width ? widths_of(parameters[*width]) : std::vector{0.0}) {
+    auto at = usual;
+    if (width) at[*width] = w;
+    all.push_back({with_colours(at, none), with_colours(at, every), {}});
+    for (const auto c : colours)
+      all.back().alone.push_back(with_colours(at, [&](std::string_view n) { return n == c; }));
+  }
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    if (is_colour(parameters[k]) || (width && k == *width)) continue;
+    for (const double v : {low_of(parameters[k]), high_of(parameters[k])}) {
+      auto at = usual;
+      at[k] = v;
+      all.push_back({{}, with_colours(at, every), {}});
+      if (colours.size() == 1)
+        all.back() = {with_colours(at, none), all.back().together, {all.back().together}};
+    }
+  }
+  return all;
 }
 
 std::string lowered(std::string s) {
@@ -66,9 +170,12 @@ std::string half_text(const stability::Answer& a) {
   } else {
     s = "open: a search found nothing, and there is no proof";
   }
-  if (a.safe_from && a.safe_from->value)
-    s += fmt::format("; from {} {} on it is ({})", a.domain.empty() ? "" : a.domain[0].first,
-                     rounded_up(*a.safe_from->value, 4), name_of(a.safe_from->evidence));
+  if (!a.safe_from || !a.safe_from->value || a.domain.empty()) return s;
+  const auto& [name, range] = a.domain[0];
+  const double from = *a.safe_from->value;
+  if (from <= range.front() * 1.001) return s;  // from its lower end on says nothing
+  s += fmt::format("; from {} {} on it is finite ({})", name, rounded_up(from, 4),
+                   name_of(a.safe_from->evidence));
   return s;
 }
 
@@ -89,31 +196,53 @@ std::string in_half(std::size_t term, const std::vector<std::pair<std::string, R
   return in_half(stability::subjects_of_term(term).back(), domain);
 }
 
-void laws_of_lobe(FunctionAudit& a,
-                  const std::string& token,
-                  std::span<const Parameter> parameters,
-                  const std::vector<std::vector<double>>& settings) {
-  constexpr std::array mu{0.1, 0.5, 1.0};
+void energy_of_lobe(FunctionAudit& a,
+                    const std::string& token,
+                    std::span<const Parameter> parameters) {
+  constexpr std::array mu{steepest, 0.1, 0.5, 1.0};
   constexpr Goal goal{1e-3, 200'000};
   if (std::ranges::none_of(parameters, [](const Parameter& p) { return std::isnan(p.start); })) {
     const auto usual = directional_albedo(bind_model(token, {}), std::array{0.5}, 0, goal)[0];
     a.usual = FoundAt{*std::ranges::max_element(usual.value), "defaults, NoV 0.5"};
   }
-  const std::size_t every = std::max<std::size_t>(1, settings.size() / 60);
-  for (std::size_t s = 0; s < settings.size(); s += every) {
+  const auto albedos = [&](const std::vector<double>& values) {
     std::vector<Setting> set;
     for (std::size_t k = 0; k < parameters.size(); ++k)
-      set.push_back({std::string(parameters[k].name), {settings[s][k]}});
-    const auto b = bind_model(token, set);
-    const auto albedo = directional_albedo(b, mu, 0, goal);
-    for (std::size_t i = 0; i < mu.size(); ++i)
-      for (const double v : albedo[i].value) {
-        const auto at =
-            auditing::joined(auditing::text(parameters, settings[s]), fmt::format("NoV {}", mu[i]));
-        take_largest(a.albedo, v, at);
-        take_smallest(a.darkest, v, at);
+      set.push_back({std::string(parameters[k].name), {values[k]}});
+    std::vector<double> v;
+    for (const auto& at : directional_albedo(bind_model(token, set, 1), mu, 0, goal))
+      v.push_back(at.value[0]);
+    return v;
+  };
+  const auto place = [&](const std::vector<double>& values, std::size_t i) {
+    return auditing::joined(auditing::text(parameters, values), fmt::format("NoV {}", mu[i]));
+  };
+  for (const auto& f : furnaces(parameters)) {
+    const auto together = albedos(f.together);
+    for (std::size_t i = 0; i < mu.size(); ++i) {
+      take_largest(a.together, together[i], place(f.together, i));
+      take_smallest(a.darkest, together[i], place(f.together, i));
+      if (f.alone.empty() && f.dark.size() == parameters.size())  // there are no colours
+        take_largest(a.albedo, together[i], place(f.together, i));
+    }
+    if (f.alone.empty()) continue;
+    const auto dark = albedos(f.dark);
+    for (const auto& colour : f.alone) {
+      const auto whole = f.alone.size() == 1 ? together : albedos(colour);
+      std::vector<double> own;
+      for (std::size_t i = 0; i < mu.size(); ++i) own.push_back(whole[i] - dark[i]);
+      // What a diffuse part adds is the same whatever the view; then each part stands for itself.
+      const auto [least, most] = std::ranges::minmax(own);
+      constexpr double same = 0.01;
+      const bool adds = most > same && most - least < same;
+      for (std::size_t i = 0; i < mu.size(); ++i) {
+        take_largest(a.together, whole[i], place(colour, i));
+        take_largest(a.albedo, adds ? own[i] : whole[i], place(colour, i));
+        take_largest(a.albedo, dark[i], place(f.dark, i));
       }
+    }
   }
+  if (a.together && a.albedo && !(a.together->value > a.albedo->value)) a.together.reset();
 }
 
 /// Directions nearer to the horizon than those that laws are looked at with: there many shaders divide by 0 or take roots of less.
@@ -126,16 +255,23 @@ std::vector<Row> grazing() {
   return rows;
 }
 
-/// True of a function that no direction decides on: an argument of another name may be a cosine.
-bool reads_no_direction(const foreign::Function& f) {
-  return f.stands == foreign::Stands::lobe &&
-         std::ranges::all_of(
-             f.arguments, [](const foreign::Argument& x) { return x.stands_for == "parameter"; });
+/// False of a function that takes no light: an argument of another name may be a cosine.
+bool is_audited(const foreign::Function& f) {
+  return f.stands != foreign::Stands::lobe || takes_light(f);
+}
+
+bool takes_both_cosines(const foreign::Function& f) {
+  const auto takes = [&](std::string_view scalar, std::string_view vector) {
+    return std::ranges::any_of(f.arguments, [&](const foreign::Argument& a) {
+      return a.stands_for == scalar || a.stands_for == vector;
+    });
+  };
+  return takes("nol", "L") && takes("nov", "V");
 }
 
 FunctionAudit audit_function(FileFunction f) {
   FunctionAudit a;
-  if (reads_no_direction(*f.function)) {
+  if (!is_audited(*f.function)) {
     a.of = std::move(f);
     return a;
   }
@@ -149,6 +285,7 @@ FunctionAudit audit_function(FileFunction f) {
   std::vector<Row> other;
   for (const auto& r : rows) other.push_back(auditing::exchanged(r));
   const auto horizon = role == Role::ndf || role == Role::fresnel ? std::vector<Row>{} : grazing();
+  constexpr double below_by_rounding = 1e-12;  // as (1 − VoH)⁵ is where VoH rounds to more than 1
   const auto count_finite = [&](const std::vector<double>& v, const Values& p,
                                 const std::vector<Row>& at) {
     for (std::size_t i = 0; i < v.size(); ++i) {
@@ -168,7 +305,7 @@ FunctionAudit audit_function(FileFunction f) {
         const auto at = [&] {
           return auditing::joined(auditing::text(parameters, p), auditing::text(rows[i]));
         };
-        if (v[i] < 0) take_smallest(a.lowest, v[i], at());
+        if (v[i] < -below_by_rounding) take_smallest(a.lowest, v[i], at());
         const double size = std::max(std::abs(v[i]), std::abs(w[i]));
         const double off = std::abs(v[i] - w[i]);
         if ((role == Role::diffuse || role == Role::masking) && size > 0 &&
@@ -176,22 +313,30 @@ FunctionAudit audit_function(FileFunction f) {
           a.reciprocity = FoundAt{off / size, at()};
       }
     }
+  // Masking by one cosine is half of a product, which alone keeps the law.
+  if (role == Role::masking && !takes_both_cosines(*f.function)) a.reciprocity.reset();
   if (role == Role::ndf)
     for (const auto& p : settings)
       if (const double v = normalisation(term, p).value;
           !a.normalisation || std::abs(v - 1) > std::abs(a.normalisation->value - 1))
         a.normalisation = FoundAt{v, auditing::text(parameters, p)};
   if (role == Role::diffuse) {
-    laws_of_lobe(a, token, parameters, settings);
+    energy_of_lobe(a, token, parameters);
     a.model = nearest_model(term);
     if (a.model) a.slips = likely_slips(*a.model);
+    if (a.model) a.to_check = to_check(a.model->width, a.model->power);
   }
-  a.half = in_half(term, {});
+  // Light and view that graze from opposite sides leave no half vector: most shaders exclude it.
+  constexpr Range cosines{0.05, 1};
+  a.half = role == Role::diffuse
+               ? "for NoL and NoV from 0.05: " + in_half(term, {{"nol", cosines}, {"nov", cosines}})
+               : in_half(term, {});
   if (!a.model && (role != Role::diffuse || !f.function->reads_frame)) {
-    constexpr double far_off = 1;  // no form resembles it
+    constexpr double far_off = 0.5;  // no form resembles it
     a.nearest = nearest_form(term);
     if (a.nearest && a.nearest->difference > far_off) a.nearest.reset();
     if (a.nearest) a.slips = likely_slips(term, *a.nearest);
+    if (a.nearest && is_same(*a.nearest)) a.to_check = to_check(a.nearest->width, a.nearest->power);
   }
   for (const auto& p : f.function->parameters)
     if (!p.bounded)
@@ -222,12 +367,17 @@ std::string nearest_text(const FunctionAudit& a) {
 std::vector<FunctionAudit> audit_file(const std::string& name) {
   std::vector<FunctionAudit> all;
   for (auto& f : file_functions(name).functions) {
-    if (f.function) {
-      all.push_back(audit_function(std::move(f)));
-    } else {
-      all.emplace_back();
-      all.back().of = std::move(f);
-    }
+    const bool is_named = !foreign::parse_name(name).function.empty();
+    if (f.function) try {
+        all.push_back(audit_function(f));
+        continue;
+      } catch (const Error& e) {
+        if (is_named) throw;
+        f.function.reset();
+        f.entry.refused = e.what();
+      }
+    all.emplace_back();
+    all.back().of = std::move(f);
   }
   return all;
 }
@@ -246,10 +396,13 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
     }
     j["stands_for"] = name_of(a.of.function->stands);
     j["includes"] = a.of.function->includes;
+    j["guessed"] = a.of.function->guessed;
+    j["unclear"] = a.of.function->unclear;
     j["operations"] = a.of.operations.total();
     j["normalisation"] = found(a.normalisation);
     j["reciprocity"] = found(a.reciprocity);
     j["albedo"] = found(a.albedo);
+    j["together"] = found(a.together);
     j["usual"] = found(a.usual);
     j["darkest"] = found(a.darkest);
     j["lowest"] = found(a.lowest);
@@ -270,10 +423,12 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
       j["model"] = {{"spec", a.model->spec},
                     {"width", a.model->width},
                     {"power", a.model->power},
+                    {"masking_power", a.model->masking_power},
                     {"factor", a.model->factor},
                     {"operations", a.model->operations},
                     {"lacks_diffuse", a.model->lacks_diffuse}};
     j["slips"] = a.slips;
+    j["to_check"] = a.to_check;
     j["not_looked_at"] = a.not_looked_at;
     rows.push_back(j);
   }
@@ -287,27 +442,43 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
 std::string text_of(const FunctionAudit& a) {
   if (!a.of.function) return fmt::format("{}: {}\n", a.of.entry.function, a.of.entry.refused);
   const auto& f = *a.of.function;
-  std::string s = fmt::format("{}, line {}: {} operations a sample\n", foreign::text_of(f.name),
-                              f.line, a.of.operations.total());
+  std::string s =
+      fmt::format("{}{}: {} operations a sample\n", foreign::text_of(f.name),
+                  f.line > 0 ? fmt::format(", line {}", f.line) : "", a.of.operations.total());
   const auto line = [&](const char* name, const std::string& text) {
     if (!text.empty()) s += fmt::format("  {:<16}{}\n", name, text);
   };
-  if (reads_no_direction(f)) {
+  if (!is_audited(f)) {
     line("not audited",
-         "it reads no direction. Where an argument is a cosine, say which: --argument u=voh");
+         takes_direction(f)
+             ? "it takes a view and no light, as an albedo does: it is no BRDF. Where an argument "
+               "is the light's, say which: --argument u=nol"
+             : "it takes no direction. Where an argument is a cosine, say which: --argument u=voh");
     return s;
   }
   if (f.stands == foreign::Stands::lobe)
-    line("includes", f.includes + (f.guessed ? " (guessed; --includes says it)" : ""));
+    line("includes", f.includes + (f.unclear   ? " (not clear: --includes pi or nothing says it)"
+                                   : f.guessed ? " (guessed; --includes says it)"
+                                               : ""));
   if (const auto& n = a.normalisation)
     line("∫ D cos θ", std::abs(n->value - 1) < 1e-4 ? "1: normalised"
                                                     : fmt::format("{:.5g} at {}", n->value, n->at));
   if (const auto& e = a.albedo; e && std::isnan(e->value)) {
     line("energy", "the albedo has no value at " + e->at);
   } else if (e) {
-    line("energy", e->value > 1 + 1e-3
-                       ? fmt::format("gains: albedo {:.4g} at {}", e->value, e->at)
-                       : fmt::format("gains none: albedo at most {:.4g}", e->value));
+    line("energy",
+         e->value > 1 + 1e-3
+             ? fmt::format("gains: albedo {:.4g} at {}", e->value, e->at)
+             : fmt::format("gains none: albedo at most {:.4g} up to 88°{}", e->value,
+                           a.together ? ", a diffuse part and a highlight each for itself" : ""));
+    if (f.unclear && e->value > 1 + 1e-3)
+      line("",
+           fmt::format("albedo {:.4g} there if the value includes π", e->value / std::numbers::pi));
+    if (const auto& t = a.together)
+      line("", fmt::format("together at most {:.4g}, at {}{}", t->value, t->at,
+                           t->value > 1 + 1e-3 && e->value <= 1 + 1e-3
+                               ? ": so does any sum of a diffuse part and a highlight"
+                               : ""));
     if (a.usual) line("", fmt::format("albedo {:.4g} at {}", a.usual->value, a.usual->at));
     line("", fmt::format("of colours at their upper bounds no less than {:.4g}, at {}",
                          a.darkest->value, a.darkest->at));
@@ -326,12 +497,16 @@ std::string text_of(const FunctionAudit& a) {
                                     operations_of(a.nearest->term).sample.total()));
   }
   if (const auto& m = a.model) {
-    line("D and V", fmt::format("those of {}{}", m->spec, width_text(m->width, m->power)));
+    line("D and V", fmt::format("those of {}{}{}", m->spec, width_text(m->width, m->power),
+                                m->masking_power == m->power
+                                    ? ""
+                                    : " in D" + width_text(m->width, m->masking_power) + " in V"));
     line("beside ours",
          fmt::format("{} operations, ours {}{}", a.of.operations.total(), m->operations,
                      m->lacks_diffuse ? " without a diffuse part" : ""));
   }
   for (const auto& slip : a.slips) line("likely slip", slip);
+  for (const auto& c : a.to_check) line("check", c);
   for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));
   for (const auto& n : a.not_looked_at) line("not looked at", n);
   return s;

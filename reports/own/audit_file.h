@@ -21,9 +21,10 @@ struct FunctionAudit {
   FileFunction of;
   std::optional<FoundAt> normalisation;  ///< ∫ D cos θ dω, furthest from 1
   std::optional<FoundAt>
-      reciprocity;                 ///< largest relative difference with light and view exchanged
-  std::optional<FoundAt> albedo;   ///< the largest, colours at their upper bounds
-  std::optional<FoundAt> darkest;  ///< the smallest at the same colours
+      reciprocity;                  ///< largest relative difference with light and view exchanged
+  std::optional<FoundAt> albedo;    ///< the largest of a part: one colour at its upper bound
+  std::optional<FoundAt> together;  ///< the largest of all parts, where it is more
+  std::optional<FoundAt> darkest;   ///< the smallest, all colours at their upper bounds
   std::optional<FoundAt>
       usual;  ///< the albedo with defaults, at NoV 0.5, the largest of its channels
   std::optional<FoundAt> lowest;  ///< below 0, else none
@@ -33,6 +34,7 @@ struct FunctionAudit {
   std::optional<NearestForm> nearest;
   std::optional<NearestModel> model;  ///< of a whole model
   std::vector<std::string> slips;
+  std::vector<std::string> to_check;       ///< right or wrong by what the caller passes
   std::vector<std::string> not_looked_at;  ///< what could not be, and why
 };
 

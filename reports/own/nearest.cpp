@@ -64,11 +64,13 @@ Pairing pair_up(const TermEntry& own, const TermEntry& form) {
 
 constexpr double pi = std::numbers::pi;
 /// Factors that are slips often made.
-constexpr std::array<std::pair<double, const char*>, 7> usual_factors{
+constexpr std::array<std::pair<double, const char*>, 9> usual_factors{
     {{pi, "π times too large: 1/π is missing"},
      {1 / pi, "π times too small: it is divided by π once too often"},
      {4, "4 times too large: a 4 is missing below"},
      {0.25, "4 times too small: a 4 too many below"},
+     {4 / pi, "4/π times too large: π stands below where 4 belongs"},
+     {pi / 4, "π/4 of what it should be: 4 stands below where π belongs"},
      {4 * pi, "4π times too large: 1/(4π) is missing"},
      {2, "twice too large: a factor ½ is missing, as in V = ½/(…)"},
      {0.5, "half of what it should be"}}};
@@ -216,9 +218,6 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
   const auto id = catalogue()[n.term].id();
   if (!n.width.empty()) {
     const auto& w = n.width;
-    if (is_rough(w) && n.power == 1)
-      all.push_back(
-          fmt::format("{} is taken for alpha: alpha is {}², so highlights are too wide", w, w));
     if (is_rough(w) && n.power == 4)
       all.push_back(
           fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²", w, w, w));
@@ -258,6 +257,14 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
   return all;
 }
 
+std::vector<std::string> to_check(const std::string& width, double power) {
+  if (!is_rough(width) || power != 1) return {};
+  return {fmt::format(
+      "{} is taken for alpha: right where the caller has squared a roughness before; otherwise "
+      "highlights are too wide",
+      width)};
+}
+
 std::optional<NearestModel> nearest_model(std::size_t term) {
   const auto& own = catalogue()[term];
   const auto width = width_of(own.parameters);
@@ -266,7 +273,10 @@ std::optional<NearestModel> nearest_model(std::size_t term) {
     return n == "f0" || n == "r0" || n == "ks" || n.starts_with("specular");
   });
   if (own.role() != Role::diffuse || !width || f0 == own.parameters.end()) return {};
-  const auto& rows = auditing::rows_of(Role::diffuse);
+  // Away from the horizon: shaders add to a denominator there.
+  constexpr double least_cosine = 0.3;
+  auto rows = auditing::rows_of(Role::diffuse);
+  std::erase_if(rows, [](const Row& r) { return std::min(r.nol, r.nov) < least_cosine; });
   const auto widths = values_between(own.parameters[*width], 4);
   // The function's values by width: with F = 1, and with what else the parameters are.
   const auto values = [&](double f0_is, bool others) {
@@ -285,8 +295,8 @@ std::optional<NearestModel> nearest_model(std::size_t term) {
   };
   const auto dark = values(1, false);
   const auto is_alpha_only = [](const TermEntry& e) {
-    return !e.anisotropic && !e.coupled && e.parameters.size() == 1 &&
-           e.parameters[0].name == "alpha";
+    return !e.anisotropic && !e.coupled &&
+           (e.parameters.empty() || (e.parameters.size() == 1 && e.parameters[0].name == "alpha"));
   };
   /// Values of each form of a role by width; none where alpha is none of the form's.
   const auto forms = [&](Role role, double power) {
@@ -295,8 +305,9 @@ std::optional<NearestModel> nearest_model(std::size_t term) {
       if (catalogue()[form].role() != role || !is_alpha_only(catalogue()[form])) continue;
       std::vector<Values> of;
       for (const double w : widths)
-        if (const double alpha = alpha_of(w, power);
-            catalogue()[form].parameters[0].legal.holds(alpha))
+        if (const double alpha = alpha_of(w, power); catalogue()[form].parameters.empty())
+          of.push_back(values_in(Number::double_, form, {}, rows));
+        else if (catalogue()[form].parameters[0].legal.holds(alpha))
           of.push_back(values_in(Number::double_, form, std::array{alpha}, rows));
       if (of.size() == widths.size()) all.emplace_back(form, std::move(of));
     }
@@ -306,20 +317,38 @@ std::optional<NearestModel> nearest_model(std::size_t term) {
     const std::string id(catalogue()[form].id());
     return id.substr(id.find('.') + 1);
   };
-  for (const double power : powers) {
-    const auto shapes = forms(Role::ndf, power), maskings = forms(Role::masking, power);
-    for (const auto& [d, d_values] : shapes)
-      for (const auto& [v, v_values] : maskings) {
-        const double factor = dark[0][0] / (d_values[0][0] * v_values[0][0]);
+  struct Scaled {
+    double power;
+    std::vector<std::pair<std::size_t, std::vector<Values>>> shapes, maskings;
+  };
+  std::vector<Scaled> scaled;
+  for (const double power : powers)
+    scaled.push_back({power, forms(Role::ndf, power), forms(Role::masking, power)});
+  // One alpha for both is tried first.
+  std::vector<std::pair<const Scaled*, const Scaled*>> tries;
+  for (const auto& s : scaled) tries.emplace_back(&s, &s);
+  for (const auto& s : scaled)
+    for (const auto& t : scaled)
+      if (&s != &t) tries.emplace_back(&s, &t);
+  for (const auto& [of_d, of_v] : tries) {
+    for (const auto& [d, d_values] : of_d->shapes)
+      for (const auto& [v, v_values] : of_v->maskings) {
+        std::size_t peak = 0;
+        for (std::size_t i = 0; i < rows.size(); ++i)
+          if (d_values[0][i] * v_values[0][i] > d_values[0][peak] * v_values[0][peak]) peak = i;
+        const double highest = d_values[0][peak] * v_values[0][peak];
+        const double factor = dark[0][peak] / highest;
         const auto is_highlight = [&](std::size_t k, std::size_t i) {
           const double wanted = factor * d_values[k][i] * v_values[k][i];
-          return std::abs(dark[k][i] - wanted) <= same_within * std::abs(wanted);
+          return std::abs(dark[k][i] - wanted) <=
+                 same_within * std::abs(wanted) + 1e-30 * std::abs(factor) * highest;
         };
         bool same = factor > 0 && std::isfinite(factor);
         for (std::size_t k = 0; same && k < widths.size(); ++k)
           for (std::size_t i = 0; same && i < rows.size(); ++i) same = is_highlight(k, i);
         if (!same) continue;
-        NearestModel n{"", std::string(own.parameters[*width].name), power, factor};
+        NearestModel n{"", std::string(own.parameters[*width].name), of_d->power, of_v->power,
+                       factor};
         const auto with = values(f0->legal.low, true), without = values(f0->legal.low, false);
         double least = 1e300, most = -1e300;
         for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -342,9 +371,12 @@ std::vector<std::string> likely_slips(const NearestModel& n) {
   std::vector<std::string> all;
   if (std::abs(n.factor - 1) > same_within)
     all.push_back("its highlight is " + factor_text(n.factor));
-  if (is_rough(n.width) && n.power == 1)
-    all.push_back(fmt::format("{} is taken for alpha: alpha is {}², so highlights are too wide",
-                              n.width, n.width));
+  const auto alpha = [&](double power) {
+    return power == 0.5 ? "√" + n.width : n.width + (power == 2 ? "²" : power == 4 ? "⁴" : "");
+  };
+  if (n.power != n.masking_power)
+    all.push_back(fmt::format("alpha is {} in D and {} in V: expected one alpha for both",
+                              alpha(n.power), alpha(n.masking_power)));
   if (is_rough(n.width) && n.power == 4)
     all.push_back(fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²",
                               n.width, n.width, n.width));

@@ -38,8 +38,9 @@ bool is_rough(std::string_view name);
 struct NearestModel {
   std::string spec;
   std::string width;
-  double power = 1;
-  double factor = 1;  ///< the function's highlight over the model's
+  double power = 1;          ///< of D: alpha = width^power
+  double masking_power = 1;  ///< of V
+  double factor = 1;         ///< the function's highlight over the model's
   std::size_t operations = 0;
   bool lacks_diffuse =
       false;  ///< the function has a diffuse part that is not Lambert's, which the model has not
@@ -53,6 +54,8 @@ std::vector<std::string> likely_slips(const NearestModel&);
 std::optional<NearestForm> nearest_form(std::size_t foreign_term);
 /// The likely mistakes, a sentence each; empty where the function is what its names promise, or resembles no form.
 std::vector<std::string> likely_slips(std::size_t foreign_term, const NearestForm&);
+/// What is right where the caller passes alpha and wrong where it passes a roughness, a sentence.
+std::vector<std::string> to_check(const std::string& width, double power);
 /// True where the file's function is that form, by these maps.
 bool is_same(const NearestForm&);
 

@@ -27,17 +27,24 @@ std::string_view what_it_gives(const foreign::Function& f) {
     case foreign::Stands::lobe:
       break;
   }
-  return "a whole model";
+  return !takes_direction(f) ? "a helper, which takes no direction"
+         : takes_light(f)    ? "a whole model"
+                             : "a value of one direction";
 }
 
+constexpr std::string_view unclear_text =
+    " (not clear: an albedo is near neither 1 nor π; --includes says it)";
+
 std::string includes_text(const foreign::Function& f) {
-  if (f.stands != foreign::Stands::lobe) return "";
+  if (f.stands != foreign::Stands::lobe || !takes_light(f)) return "";
   const std::string what = f.includes == "nothing"  ? "no cosine and no factor of π"
                            : f.includes == "cosine" ? "the cosine NoL, which is taken out"
                            : f.includes == "pi"     ? "a factor of π, which is taken out"
                                                     : "NoL and a factor of π, which are taken out";
   return fmt::format("{}{}", what,
-                     f.guessed ? " (guessed from reciprocity and albedo; --includes says it)" : "");
+                     f.unclear   ? unclear_text
+                     : f.guessed ? " (guessed from reciprocity and albedo; --includes says it)"
+                                 : "");
 }
 
 Json json_of(const FileFunction& of) {
@@ -50,6 +57,7 @@ Json json_of(const FileFunction& of) {
   j["stands_for"] = name_of(f.stands);
   j["includes"] = f.includes;
   j["guessed"] = f.guessed;
+  j["unclear"] = f.unclear;
   j["anisotropic"] = f.anisotropic;
   j["operations"] = of.operations.total();
   Json arguments = Json::array(), parameters = Json::array(), notes = Json::array();
@@ -57,7 +65,9 @@ Json json_of(const FileFunction& of) {
     arguments.push_back({{"name", a.name}, {"stands_for", a.stands_for}});
   for (const auto& p : f.parameters) {
     Json q{{"name", p.name}, {"per_channel", p.per_channel}};
-    if (p.bounded) q["low"] = p.range.low, q["high"] = p.range.high, q["default"] = p.start;
+    if (p.bounded)
+      q["low"] = p.range.low, q["high"] = p.range.high,
+      q["default"] = p.colour ? Json(*p.colour) : Json(p.start);
     parameters.push_back(q);
   }
   for (const auto& n : f.notes) notes.push_back({{"line", n.line}, {"note", n.text}});
@@ -192,11 +202,15 @@ std::string text_of(const FileFunctions& all) {
     line("arguments", fmt::format("{}", fmt::join(directions, ", ")));
     for (const auto& p : f.parameters)
       line(&p == f.parameters.data() ? "parameters" : "",
-           p.bounded
-               ? fmt::format("{}{} in [{:g}, {:g}], default {:g}", p.name,
-                             p.per_channel ? " (a colour)" : "", p.range.low, p.range.high, p.start)
-               : fmt::format("{}{}: no bounds; a comment \"// {} LOW HIGH DEFAULT\" gives them",
-                             p.name, p.per_channel ? " (a colour)" : "", p.name));
+           p.bounded ? fmt::format("{}{} in [{:g}, {:g}], default {}", p.name,
+                                   p.per_channel ? " (a colour)" : "", p.range.low, p.range.high,
+                                   p.colour ? fmt::format("{:g}", fmt::join(*p.colour, ", "))
+                                            : fmt::format("{:g}", p.start))
+                     : fmt::format("{}{}: no bounds; {} gives them", p.name,
+                                   p.per_channel ? " (a colour)" : "",
+                                   all.file.ends_with(".spv")
+                                       ? "--bounds " + p.name + "=LOW,HIGH"
+                                       : "a comment \"// " + p.name + " LOW HIGH DEFAULT\""));
     if (f.float_constants) line("constants", "in float: HLSL and SPIR-V hold no more digits");
     for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));
   }

@@ -2,10 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <cstring>
 #include <fstream>
+#include <new>
 #include <stdexcept>
 #include <string>
+#include <string_view>
+#include <utility>
 
 #include "base/error.h"
 #include "base/numbers.h"
@@ -102,15 +106,52 @@ void expect_valid(const std::vector<std::uint32_t>& words) {
     throw std::runtime_error("SPIR-V that its validator refuses: " + said);
 }
 
+/// What the compiler says of a stage, in words of functions: a person's text need be of no stage.
+std::string in_words_of_functions(std::string said) {
+  static constexpr std::pair<std::string_view, std::string_view> words[] = {
+      {"required extension not requested: GL_NV_compute_shader_derivatives",
+       "a difference between pixels, of which a function has none"},
+      {"not supported in this stage: compute", "a pixel's shader has it, a function has not"}};
+  for (const auto& [theirs, ours] : words)
+    if (const auto at = said.find(theirs); at != said.npos) said.replace(at, theirs.size(), ours);
+  return said;
+}
+
+/// Number of the line where a text defines a function last; 0: none.
+int line_of_function(std::string_view text, const std::string& name) {
+  std::size_t found = text.npos;
+  for (auto at = text.find(name); at != text.npos; at = text.find(name, at + 1)) {
+    const auto is_of_name = [](char c) {
+      return std::isalnum(static_cast<unsigned char>(c)) || c == '_';
+    };
+    const auto after = text.find_first_not_of(" \t", at + name.size());
+    const auto before = at == 0 ? text.npos : text.find_last_not_of(" \t", at - 1);
+    // A type stands before a function that is declared, and no "return".
+    if (after == text.npos || text[after] != '(' || before == text.npos || before + 1 == at ||
+        !is_of_name(text[before]) || text.substr(0, before + 1).ends_with("return"))
+      continue;
+    found = at;
+  }
+  return found == text.npos ? 0
+                            : 1 + static_cast<int>(std::ranges::count(text.substr(0, found), '\n'));
+}
+
 /// "ERROR: shader:12: 'x' : undeclared identifier" → "line 12: 'x' : undeclared identifier"
-std::string first_error(const char* log) {
+std::string first_error(const char* log, std::string_view text) {
   const std::string_view all(log);
+  if (const auto at = all.find("Recursion detected:"); at != all.npos) {
+    const auto from = std::min(all.find_first_not_of(" \n\t", all.find('\n', at)), all.size());
+    const std::string name(all.substr(from, all.find('(', from) - from));
+    return fmt::format("line {}: recursion: {} calls itself, or is called by what it calls",
+                       line_of_function(text, name), name);
+  }
   for (const auto& [before, place] :
        {std::pair<std::string_view, std::string_view>{"ERROR: shader:", "line "},
         {"ERROR: tail:", "the end of the text, after it line "}})
     if (const auto at = all.find(before); at != all.npos) {
       const auto from = at + before.size();
-      return std::string(place) + std::string(all.substr(from, all.find('\n', from) - from));
+      return std::string(place) +
+             in_words_of_functions(std::string(all.substr(from, all.find('\n', from) - from)));
     }
   return std::string(all.substr(0, all.find('\n')));
 }
@@ -147,10 +188,10 @@ std::vector<std::uint32_t> compiled_here(const Source& s) {
   const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgKeepUncalled |
                                                  (hlsl ? EShMsgReadHlsl | EShMsgVulkanRules : 0));
   if (!shader.parse(GetDefaultResources(), 450, false, messages))
-    throw std::runtime_error(first_error(shader.getInfoLog()));
+    throw std::runtime_error(first_error(shader.getInfoLog(), s.text));
   glslang::TProgram program;
   program.addShader(&shader);
-  if (!program.link(messages)) throw std::runtime_error(first_error(program.getInfoLog()));
+  if (!program.link(messages)) throw std::runtime_error(first_error(program.getInfoLog(), s.text));
   glslang::SpvOptions options;
   options.disableOptimizer = true;
   options.generateDebugInfo = true;  // lines
@@ -181,9 +222,23 @@ std::string answer_of(const Source& s) {
   try {
     const auto words = compiled_here(s);
     return "+" + std::string(reinterpret_cast<const char*>(words.data()), words.size() * 4);
+  } catch (const std::bad_alloc&) {
+    return {};
   } catch (const std::exception& e) {
     return std::string("-") + e.what();
   }
+}
+
+/// Number of the line with the most characters, where a text too long for the compiler mostly is.
+std::size_t longest_line(std::string_view text) {
+  std::size_t longest = 0, at = 1, number = 1;
+  while (!text.empty()) {
+    const auto end = std::min(text.find('\n'), text.size());
+    if (end > longest) longest = end, at = number;
+    text.remove_prefix(std::min(end + 1, text.size()));
+    ++number;
+  }
+  return at;
 }
 
 }  // namespace
@@ -195,7 +250,7 @@ bool can_compile() {
 std::vector<std::uint32_t> compile(const Source& s) {
   const std::string answer = answer_of_copy([&] { return answer_of(s); }, most_words * 4);
   if (answer.empty())
-    throw bad_input(s.path, "compiling",
+    throw bad_input(s.path, "compiling, longest at line " + std::to_string(longest_line(s.text)),
                     "a text that takes the compiler too deep, too far or too long",
                     "10 s and 1 GB to suffice");
   if (answer[0] == '+') {

@@ -22,8 +22,9 @@
 namespace gonio::foreign {
 namespace {
 
-constexpr std::size_t most_read = 16;                             ///< parameters of a function
-constexpr std::uint32_t spirv_pointer = 32, spirv_variable = 59;  ///< OpTypePointer, OpVariable
+constexpr std::size_t most_read = 16;  ///< parameters of a function
+/// OpTypeStruct, OpTypePointer, OpVariable
+constexpr std::uint32_t spirv_struct = 30, spirv_pointer = 32, spirv_variable = 59;
 
 // ---- names of arguments
 // ---------------------------------------------------------------------------
@@ -169,10 +170,24 @@ std::map<std::string, Id> functions_of(const SpirvModule& m) {
   for (const auto& [id, f] : m.functions()) {
     const auto name = m.short_name(id);
     if (name.starts_with("gonio_") || name.empty() || name == "main") continue;
-    const auto op_size = m.is_of_numbers(f.result) ? m.size(f.result) : 0;
+    const bool is_value = m.is_of_numbers(f.result) && m.type(f.result).op != spirv_struct;
+    const auto op_size = is_value ? m.size(f.result) : 0;
     if (op_size == 1 || op_size == 3 || op_size == 4) all[name] = id;
   }
   return all;
+}
+
+/// Line of the first array of a text with more elements than are taken, which a module names without its line; 0: none.
+int line_of_array(std::string_view text) {
+  constexpr double most = 4096;
+  int line = 1;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '\n') ++line;
+    if (text[k] != '[') continue;
+    const auto close = std::min(text.find(']', k), text.size());
+    if (number_from<double>(text.substr(k + 1, close - k - 1)).value_or(0) > most) return line;
+  }
+  return 0;
 }
 
 std::shared_ptr<const Compiled> compiled(Source source) {
@@ -181,7 +196,7 @@ std::shared_ptr<const Compiled> compiled(Source source) {
     c->module = std::make_unique<SpirvModule>(compile(c->source));
     c->functions = functions_of(*c->module);
   } catch (const Refused& r) {
-    refuse(c->source.path, r);
+    refuse(c->source.path, r.line > 0 ? r : Refused(r.what(), line_of_array(c->source.text)));
   } catch (const std::out_of_range&) {
     throw bad_input(c->source.path, "the whole file", "SPIR-V that refers to what it has not",
                     "a module of functions");
@@ -195,6 +210,14 @@ std::shared_ptr<const Compiled> file_of(const std::string& path) {
   auto& known = files()[path];
   if (!known) known = compiled(read_source(path));
   return known;
+}
+
+[[noreturn]] void refuse_nameless(const Compiled& c, const std::string& path) {
+  throw bad_input(
+      path, "the whole file", "no function that gives a number or a colour",
+      c.source.language == Language::spirv
+          ? "one with its name: some compilers leave names out, as glslang does with -g0"
+          : "one");
 }
 
 /// The function that a file means: one called BRDF, or else the last that takes two directions.
@@ -218,8 +241,7 @@ std::string main_function(const Compiled& c, const std::string& path) {
     if ((of_two && f.line > line) || all.size() == 1) last = name, line = f.line;
   }
   if (last) return *last;
-  if (names.empty())
-    throw bad_input(path, "the whole file", "no function that gives a number or a colour", "one");
+  if (names.empty()) refuse_nameless(c, path);
   throw wrong_usage(fmt::format("{}: which function? it has: {}", path, fmt::join(names, ", ")));
 }
 
@@ -278,6 +300,7 @@ class Builder {
                return p.name.starts_with(a.name);
              });
     });
+    forget_unread_globals(m_.functions().at(id->second));
     f_.stands = as_.value_or(stands());
     finish();
     return std::move(f_);
@@ -405,8 +428,11 @@ class Builder {
                     ? std::sqrt(p.range.low * p.range.high)
                     : (p.range.low + p.range.high) / 2;
     if (is_given && given->second.size() > 2) p.start = given->second[2];
-    if (colour && d && d->start.size() == 3)
+    if (colour && d && d->start.size() == 3 && !(is_given && given->second.size() > 2)) {
       p.start = (d->start[0] + d->start[1] + d->start[2]) / 3;
+      p.colour = {d->start[0], d->start[1], d->start[2]};
+      for (double& x : *p.colour) x = std::clamp(x, p.range.low, p.range.high);
+    }
     p.start = std::clamp(p.start, p.range.low, p.range.high);
     f_.parameters.push_back(std::move(p));
   }
@@ -429,6 +455,28 @@ class Builder {
   bool reads_angle(std::string_view name) const {
     return std::ranges::any_of(f_.programs,
                                [&](const Program& p) { return reads(p, true, angle(name)); });
+  }
+  /// Directions of the file's variables count as arguments where the function reads them.
+  void forget_unread_globals(const SpirvFunction& function) {
+    const auto is_own = [&](const Argument& a) {
+      return std::ranges::any_of(function.parameters,
+                                 [&](const auto& p) { return m_.name(p.first) == a.name; });
+    };
+    const auto is_read = [&](const std::string& direction) {
+      for (const auto& [d, cosines] : {std::pair{"L", std::array{"nol", "xol", "yol"}},
+                                       {"V", {"nov", "xov", "yov"}},
+                                       {"H", {"noh", "xoh", "yoh"}}})
+        if (direction == d)
+          return std::ranges::any_of(cosines, [&](const char* c) { return reads_angle(c); });
+      return true;
+    };
+    const auto own = f_.arguments;
+    std::erase_if(f_.arguments, [&](const Argument& a) {
+      const bool is_twice = std::ranges::any_of(own, [&](const Argument& b) {
+        return is_own(b) && b.name != a.name && b.stands_for == a.stands_for;
+      });
+      return a.stands_for != "parameter" && !is_own(a) && (is_twice || !is_read(a.stands_for));
+    });
   }
   /// Decides by the arguments what the function stands for; where it takes both cosines, by its name.
   Stands stands() const {
@@ -499,10 +547,12 @@ class Builder {
       f_.includes = *said;
       return;
     }
+    f_.guessed = true;
+    if (!takes_direction(f_)) return;  // a helper
     // Reciprocity: f(l, v) = f(v, l) with the cosine taken out, not with it in.
     // Shaders add 1e-5 to a cosine so that it is never 0: that is no cosine of their own.
     int plain_differs = 0, without_differs = 0;
-    double sum = 0, most = 0, plain_off = 0, without_off = 0;
+    double plain_off = 0, without_off = 0;
     const auto off = [](double a, double b) {
       return std::abs(a - b) / std::max(std::abs(a), std::abs(b));
     };
@@ -516,21 +566,90 @@ class Builder {
       plain_off = std::fmax(plain_off, off(a, b));
       without_off = std::fmax(without_off, off(a / x[0], b / y[0]));
     }
-    constexpr int rows = 24, columns = 32;
-    for (int i = 0; i < rows; ++i)
-      for (int j = 0; j < columns; ++j) {  // uniform in cos²θ: the cosine is in the weight
-        const double mu = std::sqrt((i + 0.5) / rows);
-        const auto f = value_of(
-            f_, p, between(std::acos(mu), 2 * std::numbers::pi * (j + 0.5) / columns, 0.5, 0));
-        for (const double v : f) most = std::max(most, v);
-        sum += f[0] / (rows * columns);
-      }
     const bool cosine =
         plain_differs > 3 && (without_differs == 0 || without_off < 1e-3 * plain_off);
-    const double albedo = std::numbers::pi * sum * (cosine ? 1.3 : 1);
-    const bool pi = albedo > 1.2 && albedo / std::numbers::pi <= 1;
+    const bool pi = has_pi(p, cosine);
     f_.includes = cosine && pi ? "cosine,pi" : cosine ? "cosine" : pi ? "pi" : "nothing";
-    f_.guessed = true;
+  }
+  /// Rough albedo of the first channel where θ_v = 0.5, over rings about the mirror direction that are narrow near it: a lobe of
+  /// any width is seen.
+  double rough_albedo(const std::vector<double>& p, bool cosine) const {
+    constexpr int rings = 64, columns = 16;
+    constexpr double theta_v = 0.5, most = std::numbers::pi / 2 + theta_v;
+    Interpreter<double> run(f_.programs[0]);
+    run.set(p);
+    double sum = 0;
+    for (int i = 0; i < rings; ++i)
+      for (int j = 0; j < columns; ++j) {
+        const double t = (i + 0.5) / rings, rho = most * t * t * t;
+        const double phi = 2 * std::numbers::pi * (j + 0.5) / columns;
+        const double along = std::sin(rho) * std::cos(phi), across = std::sin(rho) * std::sin(phi);
+        const double x = along * std::cos(theta_v) - std::cos(rho) * std::sin(theta_v);
+        const double z = along * std::sin(theta_v) + std::cos(rho) * std::cos(theta_v);
+        if (z <= 0) continue;
+        const auto angles = between(std::acos(std::min(z, 1.0)), std::atan2(across, x), theta_v, 0);
+        double f = 0;
+        run.run(
+            1, [&](std::size_t k, std::size_t) { return angles[k]; },
+            [&](std::size_t, std::size_t, double v) { f = v; });
+        const double width = most * 3 * t * t / rings * 2 * std::numbers::pi / columns;
+        sum += f * (cosine ? 1 : z) * std::sin(rho) * width;
+      }
+    return sum;
+  }
+  /// Guesses whether a value is π times f.  A colour at 1, with the others dark, gives an albedo near 1, or else near π.
+  bool has_pi(const std::vector<double>& starts, bool cosine) {
+    const auto is_near = [](double a, double b) { return std::abs(a / b - 1) < 0.1; };
+    double most = 0;
+    bool near_one = false, near_pi = false;
+    const auto take = [&](double albedo) {
+      most = std::fmax(most, albedo);
+      near_one = near_one || is_near(albedo, 1);
+      near_pi = near_pi || is_near(albedo, std::numbers::pi);
+    };
+    // Parameters in which the value is linear; of a colour whose channels mix the three together.
+    using Group = std::vector<std::size_t>;
+    std::vector<Group> colours;
+    const auto with = [](std::vector<double> p, const Group& g, const std::vector<double>& by) {
+      for (const auto k : g) p[k] = by[k];
+      return p;
+    };
+    std::vector<double> low, high, middle;
+    for (const auto& q : f_.parameters) {
+      low.push_back(q.range.low);
+      high.push_back(q.range.high);
+      middle.push_back((q.range.low + q.range.high) / 2);
+    }
+    Group others;
+    for (std::size_t k = 0; k < f_.parameters.size(); ++k) {
+      Group g{k};
+      const auto stem = [&](std::size_t i) {
+        const auto& n = f_.parameters[i].name;
+        return n.ends_with("_r") || n.ends_with("_g") || n.ends_with("_b")
+                   ? n.substr(0, n.size() - 2)
+                   : n;
+      };
+      while (k + 1 < f_.parameters.size() && stem(k + 1) == stem(g[0])) g.push_back(++k);
+      const double a = rough_albedo(with(starts, g, low), cosine),
+                   b = rough_albedo(with(starts, g, middle), cosine),
+                   c = rough_albedo(with(starts, g, high), cosine);
+      if (c > a && std::abs((b - a) / (c - a) - 0.5) < 0.02)
+        colours.push_back(g);
+      else
+        others.insert(others.end(), g.begin(), g.end());
+    }
+    auto dark = starts;
+    for (const auto& g : colours) dark = with(dark, g, low);
+    std::vector<std::vector<double>> places{dark};
+    for (const auto k : others)
+      for (const auto* end : {&low, &high}) places.push_back(with(dark, {k}, *end));
+    for (const auto& g : colours)
+      for (const auto& p : places)
+        take((rough_albedo(with(p, g, high), cosine) - rough_albedo(with(p, g, low), cosine)) /
+             (high[g[0]] - low[g[0]]));
+    if (colours.empty()) take(rough_albedo(starts, cosine));
+    f_.unclear = !near_one && !near_pi && most > 1.2;
+    return near_pi && !near_one;
   }
   /// Divides the value by what it includes, so that it is f in 1/sr, or V.
   void scale(Program& p) {
@@ -586,8 +705,7 @@ std::vector<Entry> list_functions(const std::string& file) {
     all.push_back(std::move(e));
   }
   std::ranges::sort(all, {}, [](const Entry& e) { return std::pair(e.line, e.function); });
-  if (all.empty())
-    throw bad_input(file, "the whole file", "no function that gives a number or a colour", "one");
+  if (all.empty()) refuse_nameless(*c, file);
   return all;
 }
 

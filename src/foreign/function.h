@@ -51,6 +51,8 @@ struct FunctionParameter {
   std::string name;
   Range range{0, 1};
   double start = 0.5;
+  std::optional<std::array<double, 3>>
+      colour{};  ///< the default of each channel, where they differ
   bool per_channel = false;
   bool bounded = false;  ///< by the file, or by its reader
 };
@@ -72,9 +74,15 @@ struct Function {
   bool is_g = false;         ///< a masking function that gives G: V = G/(4 NoL NoV)
   std::string includes = "nothing";
   bool guessed = false;  ///< `includes`
+  bool unclear = false;  ///< the guess: albedos are near neither 1 nor π
   bool float_constants = false;
   int line = 0;
 };
+
+/// True of a function whose arguments name the light's direction, or one that follows from it: without it there is no BRDF.
+bool takes_light(const Function&);
+/// True of one whose arguments name any direction but those of the frame.
+bool takes_direction(const Function&);
 
 /// What a file has: functions, and those that cannot be run with the reason.
 struct Entry {

@@ -14,6 +14,15 @@
 
 namespace gonio::foreign {
 
+namespace {
+
+/// What an argument that is fixed stands for is its value.
+bool is_number(const std::string& s) {
+  return number_from<double>(s).has_value();
+}
+
+}  // namespace
+
 Name parse_name(std::string_view token) {
   Name n;
   std::string_view options;
@@ -89,6 +98,21 @@ bool is_there(std::string_view name) {
   name = name.substr(0, name.find('{'));
   const auto colon = name.rfind(':');
   return std::filesystem::exists(name.substr(0, is_source_name(name) ? name.size() : colon), error);
+}
+
+bool takes_direction(const Function& f) {
+  static constexpr std::string_view none[] = {"parameter", "N", "X", "Y"};
+  return std::ranges::any_of(f.arguments, [](const Argument& a) {
+    return std::ranges::find(none, a.stands_for) == std::end(none) && !is_number(a.stands_for);
+  });
+}
+bool takes_light(const Function& f) {
+  static constexpr std::string_view of_view[] = {"V",         "nov", "xov", "yov",
+                                                 "parameter", "N",   "X",   "Y"};
+  return std::ranges::any_of(f.arguments, [](const Argument& a) {
+    return std::ranges::find(of_view, a.stands_for) == std::end(of_view) &&
+           !is_number(a.stands_for);
+  });
 }
 
 std::vector<double> value_of(const Function& f,

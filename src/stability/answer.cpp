@@ -72,6 +72,11 @@ std::optional<Least> least_of(const Question& q,
   Least least{required.text(), a.flush, looked.from(required.kind), looked.evidence};
   if (looked.evidence == Evidence::exhaustive && !a.any_gpu) return least;
   least.evidence = Evidence::searched;
+  // A search for the least value may miss what another has found above it: then nothing is known of
+  // one.
+  if (const auto at = broken_at(looked, required);
+      !at.empty() && least.value && at[*q.subject.decides] >= *least.value)
+    return {};
   if (is_of_error(required) || a.number == Number::mixed || !least.value) return least;
   // Below what looking finds broken nothing is proved.
   Subject above = q.subject;

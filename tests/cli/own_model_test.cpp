@@ -95,6 +95,46 @@ TEST(OwnModelCommands, ValidateTakesATermAndRefusesWhatLiesOutside) {
   expect_one_line(gonio(f, "validate assets/none.json"), 3, "no.glsl");
 }
 
+TEST(OwnModelCommands, ValidateTakesItsNamesWhateverTheirCase) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder f;
+  std::string text = own;
+  for (const auto& [from, to] : {std::pair{"f0", "F0"}, {"alpha", "Alpha"}})
+    for (auto at = text.find(from); at != text.npos; at = text.find(from, at + 1))
+      text.replace(at, std::string_view(from).size(), to);
+  f.write("named.glsl", text);
+  f.write("choice.json", choice("named.glsl:brdf").dump());
+  const auto o = gonio(f, "validate choice.json");
+  EXPECT_EQ(o.code, 0) << o.out << o.err;
+}
+
+TEST(OwnModelCommands, AGuessThatChangesValuesIsSaidByEveryCommand) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder f;
+  f.write(
+      "guess.glsl",
+      "// kd 0 1 0.5\nfloat lit(vec3 N, vec3 L, vec3 V, float kd) { return kd * dot(N, L); }\n");
+  const std::string says = "guess.glsl: guessed to include the cosine NoL and π";
+  for (const std::string words :
+       {"albedo guess.glsl --mu 0.5", "synth guess.glsl --set kd=0.5 --layout random -o t.csv",
+        "fit t.csv --model guess.glsl"})
+    EXPECT_NE(gonio(f, words).err.find(says), std::string::npos) << words;
+  EXPECT_EQ(gonio(f, "albedo guess.glsl --includes cosine,pi --mu 0.5").err, "");
+}
+
+TEST(OwnModelCommands, AnAuditThatReadNoFunctionEndsAsBadInput) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder f;
+  const std::string endless =
+      "float g(float NoL) {\n  float x = NoL;\n  while (x < 2.0) x *= 1.1;\n  return x;\n}\n";
+  f.write("endless.glsl", endless);
+  const auto o = gonio(f, "audit endless.glsl");
+  EXPECT_EQ(o.code, 3);
+  EXPECT_NE(o.out.find("line 3"), std::string::npos) << o.out;
+  f.write("one.glsl", endless + "float D(float NoH) { return NoH; }\n");
+  EXPECT_EQ(gonio(f, "audit one.glsl").code, 0);
+}
+
 json scene() {
   return json::parse(R"({
     "schema": "gonio.scene/1",

@@ -111,6 +111,7 @@ TEST(Function, AnExplorersFileHasItsBoundsAndItsBoolsAreKnown) {
   const auto f = w.function();
   ASSERT_EQ(f.parameters.size(), 2U);
   EXPECT_EQ(f.parameters[0].name, "tint");
+  EXPECT_EQ(f.parameters[0].colour, (std::array{0.2, 0.4, 0.6}));
   EXPECT_EQ(f.parameters[1].range.high, 100);
   EXPECT_EQ(f.line, 8);
   const auto at = [&](const std::string& rest) {
@@ -137,6 +138,63 @@ TEST(Function, WhatAValueIncludesIsGuessedAndSaid) {
   const auto f = Written(head + "kd * dot(N, L); }\n").function();
   const std::array<double, 11> angles{0.5, 0.7, 0.8, 0.8, 0.36, 0, 0.6, 0.2, 0.3, 0.1, 0.4};
   EXPECT_NEAR(value_of(f, {0.6}, angles)[0], 0.6 / std::numbers::pi, 1e-15);
+}
+
+/// A diffuse part and a highlight that has three times too much, as many old shaders have it.
+std::string diffuse_and_phong(const std::string& kd, const std::string& over) {
+  return "// n 1 200 30\n// kd 0 " + kd +
+         " 0.3\n// ks 0 1 0.4\nvec3 f(vec3 L, vec3 V, vec3 N, vec3 kd, vec3 ks, float n) {\n"
+         "  return kd" +
+         over + " + ks * (n + 2.0) * 0.5" + over +
+         " * pow(max(dot(N, normalize(L + V)), 0.0), n);\n}\n";
+}
+
+TEST(Function, PiIsGuessedByOneColourAtATimeWhateverItsBounds) {
+  SKIP_WITHOUT_SHADERS;
+  for (const std::string high : {"1", "0.5"}) {
+    EXPECT_EQ(Written(diffuse_and_phong(high, " / 3.14159265358979")).function().includes,
+              "nothing")
+        << high;
+    EXPECT_EQ(Written(diffuse_and_phong(high, "")).function().includes, "pi") << high;
+  }
+  EXPECT_FALSE(Written(diffuse_and_phong("1", "")).function().unclear);
+  const auto f =
+      Written("// ks 0 1 0.1\nfloat f(vec3 L, vec3 V, vec3 N, float ks) { return ks * 0.6; }\n")
+          .function();
+  EXPECT_EQ(f.includes, "nothing");
+  EXPECT_TRUE(f.unclear) << "an albedo of 1.9 is near neither 1 nor π";
+}
+
+TEST(Function, AHelperTakesNoDirectionAndAnAlbedoNoLight) {
+  SKIP_WITHOUT_SHADERS;
+  const auto helper = Written("float sqr(float x) { return x * x; }\n").function();
+  EXPECT_FALSE(takes_direction(helper));
+  EXPECT_EQ(helper.includes, "nothing");
+  const auto tangent = Written("vec3 to_linear(vec3 x) { return x * x; }\n").function();
+  EXPECT_FALSE(takes_direction(tangent));
+  const auto albedo = Written(
+                          "// f0 0 1 0.04\nvec3 env(vec3 f0, float NoV) { return f0 + (1.0 - f0) * "
+                          "exp(-9.0 * NoV); }\n")
+                          .function();
+  EXPECT_TRUE(takes_direction(albedo));
+  EXPECT_FALSE(takes_light(albedo));
+}
+
+TEST(Function, VariablesThatItDoesNotReadAreNoArguments) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "uniform vec3 l, v;\nfloat f(vec3 L, vec3 N) { return dot(L, N) * l.z; }\nfloat D(float NoH) "
+      "{ return NoH + 0.0 * dot(vec3(0.0), v); }\n");
+  for (const auto& a : w.function(":f").arguments) EXPECT_NE(a.name, "l") << "L is the same";
+}
+
+TEST(Function, AStructOfFourNumbersIsNoColour) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "struct A { float a, b, c, d; };\nA angles(vec3 N, vec3 L, vec3 V) { A x; x.a = dot(N, L); "
+      "x.b = dot(N, V); x.c = 1.0; x.d = 1.0; return x; }\n"
+      "float f(float NoL, float NoV, float NoH) { return 0.1 * NoL; }\n");
+  EXPECT_EQ(list_functions(w.path).size(), 1U);
 }
 
 TEST(Function, MaskingIsGOrVByItsValueAlongTheNormal) {
@@ -182,7 +240,19 @@ TEST(Function, RefusalsNameThePersonsLine) {
     return Written(before + "float f(float NoL, float a) {\n" + body + "}\n").refused(":f");
   };
   EXPECT_HAS(of("  return b;\n"), "line 2");
-  EXPECT_HAS(of("  return f(NoL, a);\n"), "ecursi");
+  EXPECT_HAS(of("  return f(NoL, a);\n"), "line 1: found recursion: f calls itself");
+  EXPECT_HAS(of("  return h(a);\n",
+                "float h(float x);\nfloat g(float x) { return h(x); }\nfloat h(float x) {\n  "
+                "return g(x);\n}\n"),
+             "found recursion");
+  EXPECT_HAS(of("  return h(a);\n",
+                "float h(float x);\nfloat g(float x) { return h(x); }\nfloat h(float x) {\n  "
+                "return g(x);\n}\n"),
+             "line ");
+  const auto slope = of("  return dFdx(NoL);\n");
+  EXPECT_HAS(slope, "line 2: found 'dFdx' : a difference between pixels");
+  EXPECT_EQ(slope.find("GL_NV"), slope.npos) << slope;
+  EXPECT_HAS(of("  float x[50000];\n  x[1] = a;\n  return x[1];\n"), "line 2: found an array of");
   EXPECT_HAS(of("  float x = a;\n  while (x > 0.1) x *= 0.5;\n  return x;\n"),
              "line 3: found a loop that");
   EXPECT_HAS(of("  return texture(t, vec2(NoL)).x;\n", "uniform sampler2D t;\n"),
@@ -193,7 +263,7 @@ TEST(Function, RefusalsNameThePersonsLine) {
                 .line,
             3);
   EXPECT_HAS(Written("float f(float NoL) { return NoL").refused(), "the end of the text");
-  EXPECT_HAS(of("  discard;\n"), "line 2");
+  EXPECT_HAS(of("  discard;\n"), "line 2: found 'discard' : a pixel's shader has it");
   EXPECT_HAS(of("  int i = int(NoL * 3.0);\n  return float(i);\n"), "line 2: found an integer");
   EXPECT_HAS(of("  float x[3];\n  x[5] = a;\n  return x[0];\n"), "line 3");
   EXPECT_HAS(of("  return a;\n", "#include \"other.glsl\"\n"), "line 1");

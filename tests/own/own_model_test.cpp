@@ -73,6 +73,80 @@ void expect_close(const std::vector<std::vector<double>>& f,
       EXPECT_NEAR(f[c][i] / g[c][i], 1, within) << c << ' ' << i;
 }
 
+/// A highlight without tails lies between the nodes of a rule for diffuse terms, which agree on 0.
+TEST(OwnModel, TheAlbedoOfANarrowHighlightIsSeen) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path = folder.write("narrow.glsl",
+                                 "// alpha 0.001 1 0.1\n// kd 0 1 0\nfloat f(vec3 N, vec3 V, vec3 "
+                                 "L, float alpha, float kd) {\n"
+                                 "  vec3 H = normalize(V + L);\n  float nl = dot(N, L), nv = "
+                                 "dot(N, V), c = dot(N, H), m2 = alpha * alpha;\n"
+                                 "  float tan2 = (H.x * H.x + H.y * H.y) / (c * c), D = exp(-tan2 "
+                                 "/ m2) / (3.14159265358979 * m2 * c * c * c * c);\n"
+                                 "  return kd / 3.14159265358979 + D * min(1.0, min(nl, nv) * 2.0 "
+                                 "* c / dot(V, H)) / (4.0 * nl * nv);\n}\n");
+  const std::vector<double> mu{0.05, 0.1, 0.2, 0.7, 1};
+  for (const std::string alpha : {"0.001", "0.005", "0.03", "0.2", "1"}) {
+    const std::vector<std::string> own{"alpha=" + alpha, "kd=0.3"},
+        other{"alpha=" + alpha, "f0=1", "kd=0.3"};
+    const auto mine = directional_albedo(bind_model(path, parse_settings(own), 1), mu);
+    const auto known = directional_albedo(
+        bind_model("lambert+beckmann/cook_torrance/schlick", parse_settings(other), 1), mu);
+    for (std::size_t i = 0; i < mu.size(); ++i)
+      EXPECT_NEAR(mine[i].value[0], known[i].value[0], mine[i].error + known[i].error + 1e-6)
+          << alpha << " " << mu[i];
+  }
+}
+
+/// A file's default colour has three channels; one whose channels it mixes is set by its name, too.
+TEST(OwnModel, AColourOfAFileKeepsItsChannels) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto file_of = [&](const char* name, const std::string& value) {
+    return folder.write(
+        name,
+        "analytic\n::begin parameters\ncolor tint 0.5 0.2 0.1\n::end parameters\n::begin shader\n"
+        "vec3 BRDF(vec3 L, vec3 V, vec3 N, vec3 X, vec3 Y) { return " +
+            value + " / 3.14159265358979; }\n::end shader\n");
+  };
+  const std::array mu{0.5};
+  const auto own = directional_albedo(bind_model(file_of("own.brdf", "tint"), {}), mu)[0].value;
+  EXPECT_NEAR(own[0], 0.5, 1e-6);
+  EXPECT_NEAR(own[1], 0.2, 1e-6);
+  EXPECT_NEAR(own[2], 0.1, 1e-6);
+  const auto mixed = file_of("mixed.brdf", "mix(tint, vec3(dot(tint, vec3(1.0)) / 3.0), 0.5)");
+  const std::vector<std::string> words{"tint=0.6,0.3,0.3"};
+  const auto set = directional_albedo(bind_model(mixed, parse_settings(words)), mu)[0].value;
+  EXPECT_NEAR(set[0], 0.5, 1e-6);
+  EXPECT_NEAR(set[1], 0.35, 1e-6);
+  EXPECT_HAS(
+      refusal(
+          [&] {
+            bind_model(mixed, parse_settings(std::vector<std::string>{"tint=1", "tint_r=1"}));
+          },
+          Exit::usage),
+      "same parameter");
+}
+
+/// A parameter of a file is what the file says, also where the catalogue has one of that name.
+TEST(OwnModel, MetallicAndRoughnessBesideAlphaAreTheFilesOwn) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path =
+      folder.write("names.glsl",
+                   "// metallic 0 1 0.5\n// roughness 0 1 0.5\n// alpha 0 1 0.5\n// metal 0 1 "
+                   "0.5\n// f0 0 1 0.5\n// eta 1 2 1.5\n"
+                   "float brdf(float NoL, float NoV, float NoH, float metallic, float roughness, "
+                   "float alpha, float metal, float f0, float eta) {\n"
+                   "  return 0.01 * (metallic + 2.0 * roughness + 4.0 * alpha + 8.0 * metal + f0 + "
+                   "eta) + 0.0 * NoL * NoV * NoH;\n}\n");
+  const std::vector<std::string> words{"metallic=1", "roughness=1", "alpha=0",
+                                       "metal=0.5",  "f0=0",        "eta=1"};
+  const auto b = bind_model(path + "{includes=nothing}", parse_settings(words), 1);
+  EXPECT_NEAR(evaluate(b, drawn(1))[0][0], 0.08, 1e-12);
+}
+
 TEST(OwnModel, IsTheModelThatItsTextSays) {
   SKIP_WITHOUT_SHADERS;
   const auto at = drawn(300);

@@ -105,6 +105,27 @@ bool is_foreign(std::string_view name) {
   return foreign::is_name(name);
 }
 
+std::vector<std::string> foreign_guesses() {
+  const std::lock_guard lock(foreign_mutex);
+  std::vector<std::string> all;
+  for (const auto& k : kept()) {
+    const auto& f = k.function;
+    if (!f.guessed || (!f.unclear && (f.includes == "nothing" || f.includes == "v"))) continue;
+    all.push_back(
+        f.unclear
+            ? fmt::format("{}: not clear whether its value includes π; taken to include {}. Say "
+                          "--includes pi or nothing",
+                          k.token, f.includes)
+            : fmt::format("{}: guessed to include {}, which is taken out; --includes says it",
+                          k.token,
+                          f.includes == "pi"          ? "π"
+                          : f.includes == "cosine,pi" ? "the cosine NoL and π"
+                          : f.includes == "cosine"    ? "the cosine NoL"
+                                                      : "4 NoL NoV, as G does"));
+  }
+  return all;
+}
+
 std::size_t foreign_term_named(std::string_view name, std::optional<Role> role) {
   for (const auto prefix : names_of<Role>)
     if (name.starts_with(std::string(prefix) + ".") && is_foreign(name.substr(prefix.size() + 1))) {

@@ -9,6 +9,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "brdf/catalogue/registry.h"
 #include "foreign/function.h"
@@ -38,6 +39,8 @@ const ForeignTerm* foreign_term(std::size_t term);
 std::size_t term_of_channel(std::size_t term, std::size_t channel);
 /// A function as a term in a role, read where it was not yet.  \throws Error  as read_function(), or wrong usage of more than 48
 std::size_t foreign_term_named(std::string_view name, std::optional<Role> role = {});
+/// What was guessed of the functions named so far, where it changes values or is not clear: a sentence each.
+std::vector<std::string> foreign_guesses();
 /// True where an id or a part of a spec names a function of a file.
 bool is_foreign(std::string_view name);
 

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/formula/widths.h"
 #include "brdf/model/presets.h"
@@ -52,7 +53,8 @@ ModelSpec resolve_base_color(ModelSpec spec, std::vector<Setting>& settings) {
   const Setting* base = find(settings, "base_color");
   const Setting* metallic = find(settings, "metallic");
   if (!base && !metallic) return spec;
-  if (compose(spec, 1).find("base_color")) return spec;  // its terms read them
+  const Model own = compose(spec, 1);
+  if (own.find("base_color") || own.find("metallic")) return spec;  // its terms read them
   for (const char* other : {"f0", "kd", "eta", "k", "metal"})
     if (find(settings, other))
       throw wrong_usage(fmt::format("base_color and metallic set {} themselves", other));
@@ -76,15 +78,58 @@ ModelSpec resolve_base_color(ModelSpec spec, std::vector<Setting>& settings) {
 
 /// Parameter that a name sets by another measure: alpha by roughness, eta of a dielectric by f0; empty: none.
 std::string aliased(const Model& m, const std::string& name) {
+  if (m.find(name)) return "";
   if (is_roughness(name) && m.find(alpha_name(name))) return alpha_name(name);
   const auto [stem, lobe] = parse_parameter(name);
   const auto eta = to_text({"eta", lobe});
-  const bool dielectric = !m.find(name) && m.find(eta) && !m.find(to_text({"k", lobe}));
+  const bool dielectric = m.find(eta) && !m.find(to_text({"k", lobe}));
   return stem == "f0" && dielectric ? eta : "";
+}
+
+/// Channels of a colour that a file's function mixes, which are parameters each: tint_r, tint_g and tint_b by the name tint.
+bool is_mixed_colour(const Model& m, const std::string& name) {
+  return !m.find(name) && m.find(name + "_r") && m.find(name + "_g") && m.find(name + "_b");
+}
+void divide_mixed_colours(const Model& m, std::vector<Setting>& settings) {
+  std::vector<Setting> all;
+  for (auto& s : settings) {
+    if (!is_mixed_colour(m, s.name)) {
+      all.push_back(std::move(s));
+      continue;
+    }
+    if (s.values.size() != 1 && s.values.size() != 3)
+      throw wrong_usage(fmt::format("{}: {} values where one or 3 fit", s.name, s.values.size()));
+    for (std::size_t c = 0; c < 3; ++c) {
+      Setting one = s;
+      one.name = fmt::format("{}_{}", s.name, "rgb"[c]);
+      one.values = {s.values[s.values.size() == 1 ? 0 : c]};
+      if (find(settings, one.name))
+        throw wrong_usage(fmt::format("{} and {} are the same parameter", s.name, one.name));
+      all.push_back(std::move(one));
+    }
+  }
+  settings = std::move(all);
+}
+
+/// Sets the colours that a file gives for defaults.
+void start_colours(BoundModel& b) {
+  const auto& m = b.model;
+  std::vector<const TermUse*> uses;
+  for (const auto& t : m.diffuse) uses.push_back(&t);
+  for (const auto& l : m.lobes) uses.insert(uses.end(), {&l.ndf, &l.masking, &l.fresnel});
+  for (const auto* t : uses) {
+    const auto* f = foreign_term(t->term);
+    for (std::size_t k = 0; f && k < f->function->parameters.size(); ++k)
+      if (const auto& p = m.parameters[t->parameters[k]];
+          p.count == 3 && f->function->parameters[k].colour)
+        std::ranges::copy(*f->function->parameters[k].colour,
+                          b.values.begin() + static_cast<std::ptrdiff_t>(p.first));
+  }
 }
 
 /// Names that stand for others: roughness, f0 of a dielectric, metal.
 void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
+  divide_mixed_colours(m, settings);
   for (auto& s : settings) {
     const auto of = aliased(m, s.name);
     const auto replace = [&](const std::string& by, auto&& map) {
@@ -102,7 +147,7 @@ void resolve_aliases(const Model& m, std::vector<Setting>& settings) {
         return IorFromF0<double>::apply(std::array{f0})[0];
       });
   }
-  if (const Setting* s = find(settings, "metal")) {
+  if (const Setting* s = find(settings, "metal"); s && !m.find("metal")) {
     const Material* metal = find_metal(s->text);
     if (!metal) {
       std::vector<std::string_view> names;
@@ -163,9 +208,10 @@ BoundModel bind_model(const ModelSpec& spec,
                       std::optional<std::size_t> channels,
                       std::span<const std::string> grey) {
   const ModelSpec resolved = resolve_base_color(resolve_preset(spec, settings), settings);
-  if (find(settings, "f0") && find(settings, "eta"))
+  const Model grey_model = compose(resolved, 1);
+  if (find(settings, "f0") && find(settings, "eta") && !grey_model.find("f0"))
     throw wrong_usage("f0 and eta say the same: give one of them");
-  resolve_aliases(compose(resolved, 1), settings);
+  resolve_aliases(grey_model, settings);
   std::size_t longest = 1;
   for (const auto& s : settings) longest = std::max(longest, s.values.size());
   const std::size_t n = channels.value_or(longest > 1 ? longest : 3);
@@ -174,6 +220,7 @@ BoundModel bind_model(const ModelSpec& spec,
   b.values.resize(b.model.value_count);
   for (const auto& p : b.model.parameters)
     std::fill_n(b.values.begin() + static_cast<std::ptrdiff_t>(p.first), p.count, p.about->start);
+  start_colours(b);
   for (const auto& s : settings) {
     const ModelParameter* p = b.model.find(s.name);
     if (!p) {
@@ -202,8 +249,10 @@ bool takes_parameter(std::string_view spec, const std::string& name) {
       std::ranges::find(preset->parameters, name, &Parameter::name) != preset->parameters.end())
     return true;
   const Model m = compose(preset ? preset->spec : spec, 1);
-  const auto has = [&](const std::string& p) { return m.find(p) || !aliased(m, p).empty(); };
-  if (name == "metal") return m.find("eta") && m.find("k");
+  const auto has = [&](const std::string& p) {
+    return m.find(p) || is_mixed_colour(m, p) || !aliased(m, p).empty();
+  };
+  if (name == "metal" && !m.find(name)) return m.find("eta") && m.find("k");
   return has(name) || ((name == "base_color" || name == "metallic") && has("f0") && m.find("kd"));
 }
 

@@ -149,6 +149,7 @@ std::vector<Setting> parse_settings(std::span<const std::string> words) {
         if (!s.text.empty())
           throw wrong_usage(fmt::format("metal: found {} and {}, expected one", s.text, value));
         s.text = value;
+        if (const auto number = number_from<double>(value)) s.values = {*number};  // a shader's own
       } else
         s.values.push_back(parse_number(value, s.name));
     }

@@ -5,6 +5,7 @@
 #include <limits>
 #include <mutex>
 #include <numbers>
+#include <optional>
 
 #include "base/error.h"
 #include "base/whole_loop.h"
@@ -24,10 +25,15 @@ struct Part {
   BoundModel model;
   std::array<double, 2> widths{};  ///< of a lobe
   bool diffuse = false;
+  bool may_be_lobe = false;  ///< a function of a file, whose highlight may be narrow
 };
 
-/// One channel is enough where all are equal.
+/// One channel is enough where all are equal, also what a file computes of them.
 BoundModel without_equal_channels(BoundModel b) {
+  const auto differs = [](const TermUse& t) { return term_of_channel(t.term, 1) != t.term; };
+  if (std::ranges::any_of(b.model.diffuse, differs) ||
+      std::ranges::any_of(b.model.lobes, [&](const auto& l) { return differs(l.fresnel); }))
+    return b;
   for (const auto& p : b.model.parameters)
     for (std::size_t c = 1; c < p.count; ++c)
       if (b.values[p.first + c] != b.values[p.first]) return b;
@@ -53,6 +59,9 @@ std::vector<Part> parts_of(const BoundModel& whole) {
   if (!whole.model.diffuse.empty()) {
     Part p{whole};
     p.diffuse = true;
+    const auto& terms = whole.model.diffuse;
+    p.may_be_lobe = terms.size() == 1 && foreign_term(terms[0].term);
+    if (p.may_be_lobe) p.model.model.lobes.clear();  // it is coupled to none
     p.model.model.anisotropic =
         reads_frame(whole.model.diffuse) ||
         (!whole.model.lobes.empty() && reads_frame({whole.model.lobes.front().fresnel}));
@@ -302,6 +311,68 @@ Integral diffuse_part(const Part& part, const View& v, const Goal& goal) {
   return integrate_over(m, v, rectangles, goal, chart, values);
 }
 
+/// The widths of a highlight about the mirror direction of v: 1.5 times the slope of the half vector at which the value has fallen half
+/// way to its least.  None where the value has no peak there, or a wide one.
+std::optional<std::array<double, 2>> highlight_widths(const Part& part, const View& v) {
+  constexpr std::size_t steps = 57;  // 8 a decade, from 1e-7
+  constexpr double widest = 0.3;
+  const Model& m = part.model.model;
+  std::array<double, 2> widths{1, 1};
+  AngleBlock x(m.anisotropic);
+  std::vector<double*> columns(m.channels);
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    // Across v's plane where the surface may be turned; otherwise along each of its axes.
+    const std::array along = !m.anisotropic ? std::array{-v.sin_phi, v.cos_phi}
+                             : axis == 0    ? std::array{1.0, 0.0}
+                                            : std::array{0.0, 1.0};
+    const auto c = x.resize(steps);
+    std::vector<double> slopes;
+    for (std::size_t k = 0; k < steps; ++k) {
+      const double t = std::pow(10, static_cast<double>(k) / 8 - 7);
+      const double noh = 1 / std::sqrt(1 + t * t);
+      const double xoh = t * noh * along[0], yoh = t * noh * along[1];
+      const double voh = v.mu * noh + v.sine * (v.cos_phi * xoh + v.sin_phi * yoh);
+      const double nol = 2 * voh * noh - v.mu;
+      if (nol > 0 && voh > 0) slopes.push_back(t);
+      c[0][k] = nol > 0 ? std::min(nol, 1.0) : 0.5;
+      c[1][k] = v.mu;
+      c[2][k] = noh;
+      c[3][k] = std::clamp(voh, 0.0, 1.0);
+      c[4][k] = t * t * noh * noh;
+      if (m.anisotropic) put_frame(c, k, xoh, yoh, voh, v);
+    }
+    for (std::size_t k = 0; k < m.channels; ++k) columns[k] = x.extra(k);
+    evaluate<double>(m, part.model.values, x.block(), columns);
+    // Those above the horizon stand first.
+    std::vector<double> f(slopes.size());
+    for (std::size_t k = 0; k < f.size(); ++k)
+      for (const double* const of : columns) f[k] += of[k];
+    if (f.empty()) continue;
+    const double least = *std::ranges::min_element(f);
+    const auto half = std::ranges::find_if(f, [&](double y) { return y < (f[0] + least) / 2; });
+    if (f[0] > 1.5 * std::max(least, 0.0) && half != f.end())
+      widths[axis] =
+          std::clamp(1.5 * slopes[static_cast<std::size_t>(half - f.begin())], 1e-6, 1.0);
+    if (!m.anisotropic) {
+      widths[1] = widths[0];
+      break;
+    }
+  }
+  if (std::min(widths[0], widths[1]) > widest) return {};
+  return widths;
+}
+
+Integral part_of_albedo(const Part& part, const View& v, const Goal& goal) {
+  if (!part.diffuse) return lobe_part(part, v, goal);
+  if (part.may_be_lobe)
+    if (const auto widths = highlight_widths(part, v)) {
+      Part lobe = part;
+      lobe.widths = *widths;
+      return lobe_part(lobe, v, goal);
+    }
+  return diffuse_part(part, v, goal);
+}
+
 Albedo albedo_of(
     const std::vector<Part>& parts, std::size_t channels, double mu, double phi, const Goal& goal) {
   Albedo a{std::vector<double>(channels), 0, 0};
@@ -309,7 +380,7 @@ Albedo albedo_of(
   const std::size_t n = std::max<std::size_t>(parts.size(), 1);
   const Goal each{goal.error / static_cast<double>(n), goal.evaluations / n};
   for (const auto& p : parts) {
-    const auto i = p.diffuse ? diffuse_part(p, v, each) : lobe_part(p, v, each);
+    const auto i = part_of_albedo(p, v, each);
     for (std::size_t c = 0; c < channels; ++c) a.value[c] += i.value[c < i.value.size() ? c : 0];
     a.error += i.error;
     a.evaluations += i.evaluations;
