@@ -100,10 +100,22 @@ class Scales {
     }
     refine(light, {incident});
     refine(detector, {outgoing, azimuth});
+    follows_incident = is_open(incident) && are_smooth(left_, axes_up_to(incident));
+    for (const auto& s : all) {
+      between_few = between_few || (number_of_angles(left_, s.of) < few_angles &&
+                                    s.square > most_between_few * most_between_few);
+      of_all = of_all || common_factor(left_, axes_up_to(s.of)) > most_of_a_scale;
+    }
   }
 
   std::vector<Scaled> all;
   double luck = 1;  ///< probability of one of them by chance
+  /// Whether those of incident angles run smoothly from one to the next, as a wrong Fresnel term's do and an instrument's seldom.
+  bool follows_incident = false;
+  /// Whether so few angles that none can run smoothly differ by more than an instrument's.
+  bool between_few = false;
+  bool of_all =
+      false;  ///< whether they have one factor in common that is more than an instrument's
 
   std::vector<SharedAngle> axes() const {
     std::vector<SharedAngle> of;
@@ -113,11 +125,20 @@ class Scales {
 
  private:
   static constexpr double chance = 0.05;
+  static constexpr std::size_t few_angles = 5;
+  static constexpr double most_between_few = 0.045;
   static constexpr std::size_t most_values = 1 << 13;
   bool is_open(SharedAngle a) const { return std::ranges::find(all, a, &Scaled::of) != all.end(); }
   std::vector<SharedAngle> axes_with(SharedAngle a) const {
     auto of = axes();
     of.push_back(a);
+    return of;
+  }
+  /// Open axes, `last` the last of them.
+  std::vector<SharedAngle> axes_up_to(SharedAngle last) const {
+    auto of = axes();
+    std::erase(of, last);
+    of.push_back(last);
     return of;
   }
   Regression with(SharedAngle a) const { return regress(left_, axes_with(a), {}, true); }
@@ -177,6 +198,7 @@ struct Tests {
   std::vector<One> all;
   std::vector<Scales::Scaled> scaled;
   double p_of_scales = 1, of_scales = 0;  ///< probability by chance, and their mean square
+  bool are_a_models = false;              ///< these scales are no instrument's
 };
 Tests test(const Left& left, bool measured, bool by_angle) {
   Tests t;
@@ -194,6 +216,7 @@ Tests test(const Left& left, bool measured, bool by_angle) {
     gains = found.axes();
     t.scaled = std::move(found.all), t.p_of_scales = found.luck;
     for (const auto& s : t.scaled) t.of_scales += s.square;
+    t.are_a_models = found.follows_incident || found.between_few || found.of_all;
   }
   if (!t.scaled.empty() || (has_angles && has_room(left, SharedAngle::incident))) {
     add(gains, {});
@@ -284,7 +307,8 @@ LackOfFit lack_of_fit(
     m.p = std::min(m.tested ? m.p : 1.0, first.p_beside_noise);
     excess = std::max(excess, 1 - 1 / first.beside_noise);
   }
-  if (tests.p_of_scales < surely && tests.of_scales > most_of_a_scale * most_of_a_scale) {
+  const double most_of_scales = tests.are_a_models ? worth_telling : most_of_a_scale;
+  if (tests.p_of_scales < surely && tests.of_scales > most_of_scales * most_of_scales) {
     m.told = true;
     m.p = std::min(m.tested ? m.p : 1.0, tests.p_of_scales);
     excess = std::max(excess, tests.of_scales / mean_square(left));

@@ -486,6 +486,18 @@ bool are_smooth(const Left& found, const std::vector<SharedAngle>& gains) {
          differences / pairs < squares * (2 - surely * 2 / std::sqrt(pairs + 2));
 }
 
+double common_factor(const Left& left, const std::vector<SharedAngle>& gains) {
+  const auto factors = Projected(left, gains).factors().back();
+  const std::size_t channels = left.unknowns.size(), angles = factors.size() / channels;
+  double largest = 0;
+  for (std::size_t c = 0; c < channels; ++c) {
+    double sum = 0;
+    for (std::size_t k = 0; k < angles; ++k) sum += factors[k * channels + c];
+    largest = std::max(largest, std::abs(sum) / static_cast<double>(angles));
+  }
+  return largest;
+}
+
 std::vector<double> moved_by_gains(const Left& left, SharedAngle axis) {
   const Projected projected(left, {});
   const Clusters angles(left, axis);

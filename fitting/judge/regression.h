@@ -52,6 +52,9 @@ double luck_of_scales(const Regression&, const Regression& open);
 /// Neumann's ratio]: these are no gains, which know nothing of each other, but what a model misses.
 /// \param gains  the axes whose scales are open
 bool are_smooth(const Left&, const std::vector<SharedAngle>& gains);
+/// Largest of the channels' mean logarithms of the last axis's factors: what is no gain of any angle, but a scale of the table that
+/// the model lacks.
+double common_factor(const Left&, const std::vector<SharedAngle>& gains);
 
 /// Standard errors of the unknowns by a gain for each angle, whose standard error is 1 in ln f.
 std::vector<double> moved_by_gains(const Left&, SharedAngle);
