@@ -159,7 +159,7 @@ std::string lowered(std::string s) {
   return s;
 }
 
-std::string half_text(const stability::Answer& a) {
+std::string half_text(const stability::Answer& a, std::optional<std::size_t> decides) {
   if (a.holds) return "finite for every input of its domain";
   std::string s = "not finite";
   if (a.counterexample) {
@@ -170,17 +170,20 @@ std::string half_text(const stability::Answer& a) {
   } else {
     s = "open: a search found nothing, and there is no proof";
   }
-  if (!a.safe_from || !a.safe_from->value || a.domain.empty()) return s;
-  const auto& [name, range] = a.domain[0];
+  if (!a.safe_from || !a.safe_from->value || !decides) return s;
+  const auto& [name, range] = a.domain[*decides];
   const double from = *a.safe_from->value;
-  if (from <= range.front() * 1.001) return s;  // from its lower end on says nothing
+  // From its lower end on says nothing.
+  if (from - range.front() < 1e-3 * (range.back() - range.front())) return s;
   s += fmt::format("; from {} {} on it is finite ({})", name, rounded_up(from, 4),
                    name_of(a.safe_from->evidence));
   return s;
 }
 
+/// \param proves  false of a whole model, about which a proof takes long and reaches only its largest widths
 std::string in_half(stability::Subject subject,
-                    const std::vector<std::pair<std::string, Range>>& domain) {
+                    const std::vector<std::pair<std::string, Range>>& domain,
+                    bool proves = true) {
   stability::Question q;
   q.subject = std::move(subject);
   for (const auto& [name, range] : domain)
@@ -189,11 +192,13 @@ std::string in_half(stability::Subject subject,
   for (auto& i : q.subject.inputs)
     if (i.domain.high > 1e29) return fmt::format("not looked at: {} has no bounds", i.name);
   q.boxes = 2000;
-  return half_text(stability::answer(q));
+  q.proves = proves;
+  return half_text(stability::answer(q), q.subject.decides);
 }
 std::string in_half(std::size_t term, const std::vector<std::pair<std::string, Range>>& domain) {
   // A distribution by its cosine NoH, as shaders have it.
-  return in_half(stability::subjects_of_term(term).back(), domain);
+  return in_half(stability::subjects_of_term(term).back(), domain,
+                 catalogue()[term].role() != Role::diffuse);
 }
 
 void energy_of_lobe(FunctionAudit& a,

@@ -72,12 +72,7 @@ std::optional<Least> least_of(const Question& q,
   Least least{required.text(), a.flush, looked.from(required.kind), looked.evidence};
   if (looked.evidence == Evidence::exhaustive && !a.any_gpu) return least;
   least.evidence = Evidence::searched;
-  // A search for the least value may miss what another has found above it: then nothing is known of
-  // one.
-  if (const auto at = broken_at(looked, required);
-      !at.empty() && least.value && at[*q.subject.decides] >= *least.value)
-    return {};
-  if (is_of_error(required) || a.number == Number::mixed || !least.value) return least;
+  if (is_of_error(required) || a.number == Number::mixed || !least.value || !q.proves) return least;
   // Below what looking finds broken nothing is proved.
   Subject above = q.subject;
   above.inputs[*above.decides].domain.low = *least.value;
@@ -200,7 +195,7 @@ Answer answer(const Question& q) {
     prove_relative_into(a, q);
   else if (q.requirement.kind == Requirement::Kind::absolute)
     a.unproved_because = "no proof of an absolute error is known";
-  else if (number != Number::mixed)
+  else if (number != Number::mixed && q.proves)
     prove_into(a, q);
   a.holds = !a.counterexample && a.evidence != Evidence::open;
   if (a.holds && q.subject.decides)

@@ -26,6 +26,7 @@ struct Question {
   /// Boxes of a proof, after which what is unproved is open; none: 20 000, and of what is dear as many as take seconds.
   std::optional<std::uint64_t> boxes{};
   bool safe_from = true;  ///< whether the least value from which it holds is looked for, too
+  bool proves = true;     ///< false: what a search does not find stays open
 };
 
 /// An input for which a requirement does not hold.

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/error.h"
+#include "base/letters.h"
 #include "base/nearest_names.h"
 #include "brdf/catalogue/foreign_terms.h"
 #include "brdf/catalogue/registry.h"
@@ -81,8 +82,12 @@ std::vector<Input> angles_given(Given given) {
 Subject subject(std::string id, Given given, std::vector<Input> inputs) {
   Subject s{std::move(id), {}, {}, given, std::move(inputs), 0, {}};
   s.parameters = s.inputs.size();
-  const auto width =
+  auto width =
       std::ranges::find_if(s.inputs, [](const auto& i) { return i.name.starts_with("alpha"); });
+  if (width == s.inputs.end())  // a file's own, whatever its case
+    width = std::ranges::find_if(s.inputs, [](const auto& i) {
+      return same_letters(std::string_view(i.name).substr(0, 5), "rough");
+    });
   if (s.parameters > 0)
     s.decides = width == s.inputs.end() ? 0 : static_cast<std::size_t>(width - s.inputs.begin());
   for (auto& i : angles_given(given)) s.inputs.push_back(std::move(i));

@@ -34,8 +34,8 @@ struct Subject {
   Given given;
   std::vector<Input> inputs;
   std::size_t parameters;              ///< of the inputs, those that are parameters
-  std::optional<std::size_t> decides;  ///< the parameter that people clamp: alpha, else the first;
-                                       ///< none where there is none
+  std::optional<std::size_t> decides;  ///< the parameter that people clamp: alpha or a roughness,
+                                       ///< else the first; none where there is none
 
   std::string_view form() const { return name_of(given); }
 };

@@ -172,9 +172,15 @@ TEST(AuditFile, FresnelOfTheWrongCosineIsNotReciprocal) {
       << "at F0 = 1 alone, F is 1 whatever its cosine";
 }
 
+/// One channel of a highlight, with something added below.
+std::string of_number() {
+  const auto text = whole_model("a * a", "a * a", "VoH", " + 1e-4");
+  return replaced(replaced(text, "vec3 f(", "float f("), "vec3 F0)", "float F0)");
+}
+
 TEST(AuditFile, AWholeModelIsKnownWhateverIsAddedBelowAndWhicheverAlphaItsPartsTake) {
   SKIP_WITHOUT_SHADERS;
-  const auto added = audited(whole_model("a * a", "a * a", "VoH", " + 1e-4"));
+  const auto added = audited(of_number());
   ASSERT_TRUE(added.model);
   EXPECT_EQ(slips(added), "");
   const auto mixed = audited(whole_model("a * a", "a", "VoH"));
@@ -217,19 +223,22 @@ TEST(AuditFile, ADiffusePartAndAHighlightGainNothingEachForItself) {
 
 TEST(AuditFile, AColourBlackIsNotAmongTheDarkestOfUpperBounds) {
   SKIP_WITHOUT_SHADERS;
-  auto text = whole_model("a * a", "a * a", "VoH");  // a number, as metals of one band have it
-  text = replaced(replaced(text, "vec3 f(", "float f("), "vec3 F0)", "float F0)");
-  const auto a = audited(text);
+  const auto a = audited(of_number());
   EXPECT_HAS(a.darkest->at, "F0 1");
   EXPECT_GT(a.darkest->value, 0.2);
 }
 
+/// A highlight whose first parameter is no width.
+std::string of_metallic() {
+  const auto text = "// metallic 0 1 0\n" + replaced(whole_model("a * a", "a * a", "VoH"),
+                                                     "float roughness, vec3 F0)",
+                                                     "float metallic, float roughness, vec3 F0)");
+  return replaced(text, "(F0 + (1.0 - F0)", "(F0 * metallic + (1.0 - F0 * metallic)");
+}
+
 TEST(AuditFile, AFunctionOfMetallicIsAuditedAndRoundingIsNotNegative) {
   SKIP_WITHOUT_SHADERS;
-  auto text = whole_model("a * a", "a * a", "VoH");
-  text = "// metallic 0 1 0\n" + replaced(text, "vec3 F0)", "vec3 F0, float metallic)");
-  const auto a =
-      audited(replaced(text, "(F0 + (1.0 - F0)", "(F0 * metallic + (1.0 - F0 * metallic)"));
+  const auto a = audited(of_metallic());
   EXPECT_NEAR(a.albedo->value, 0.967, 0.01) << "of a metal, at the default roughness";
   EXPECT_FALSE(a.lowest) << a.lowest->value << " at " << a.lowest->at;
 }
@@ -242,12 +251,15 @@ TEST(AuditFile, AnAlbedoIsNoModelAndAHelperIsNone) {
   EXPECT_HAS(text_of(audited("float sqr(float x) { return x * x; }\n")), "it takes no direction");
 }
 
-TEST(AuditFile, WhatIsSafeInHalfDoesNotContradictWhatIsNot) {
+TEST(AuditFile, WhatIsSafeInHalfIsNamedByTheWidthAndContradictsNothing) {
   SKIP_WITHOUT_SHADERS;
-  const auto a = audited(whole_model("a * a", "a * a", "VoH"));
+  const auto a = audited(of_metallic());
   EXPECT_HAS(a.half, "for NoL and NoV from 0.05");
+  EXPECT_HAS(a.half, "; from roughness ");
   EXPECT_EQ(a.half.find("from roughness 0.05"), a.half.npos) << a.half;
   EXPECT_EQ(a.half.find("e-08"), a.half.npos) << "light and view that graze: " << a.half;
+  EXPECT_EQ(a.half.find("prove"), a.half.npos)
+      << "a search finds more than a proof reaches: " << a.half;
 }
 
 TEST(AuditFile, ACosinePowerIsNamedByItsExponent) {
