@@ -2,6 +2,7 @@
 #include "fitting/map/fit_map.h"
 
 #include <algorithm>
+#include <array>
 #include <filesystem>
 #include <optional>
 #include <system_error>
@@ -146,11 +147,9 @@ Exit run(const FitMapCall& o) {
   MapDocument d = gather_tiles(folder, out, threads_in_use());
   d.left_out = found.left_out;
   d.warnings = warnings_of(found, stack.stack(), t.model);
-  out.commit();  // the page is made from it
-  if (page) {
-    page->write(map_page_html(d));
-    page->commit();
-  }
+  out.close();  // the page is made from it
+  if (page) page->write(map_page_html(d, out.temporary_path()));
+  commit_all(std::array{&out, page ? &*page : nullptr});
   line.line().clear();
   print_map(d, o, n.kept ? fmt::format("{} of {} tiles kept from before", n.kept, n.tiles) : "");
   std::error_code kept;

@@ -65,7 +65,7 @@ Exit gather_map(const std::string& folder, const std::string& output, const Comm
   Progress progress(o.quiet);
   progress("joining tiles");
   const MapDocument d = gather_tiles(folder, out, threads_in_use());
-  expect_own_files_below(folder, d.model);
+  model_of_file(folder, d.model);
   out.commit();
   progress.clear();
   print_map(d, o, "");

@@ -18,6 +18,7 @@
 #include "base/sha256.h"
 #include "base/text.h"
 #include "brdf/model/own_files.h"
+#include "fitting/batch/own_results.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
 
@@ -78,48 +79,6 @@ void expect_apart(const Batch& b, const std::vector<std::string>& results) {
     const std::string path = (fs::path(b.output) / r).string();
     expect_no_input(path);
     expect_no_link(path);
-  }
-}
-
-/// True of a file that begins like those that gonio writes.
-bool begins_with(const std::string& path, std::string_view what, std::size_t within) {
-  may_replace(path);
-  try {
-    return InputFile(path).peek(within).find(what) != std::string::npos;
-  } catch (const Error&) {
-    return false;
-  }
-}
-bool is_page(const std::string& path) {
-  return begins_with(path, R"(<meta name="generator" content="gonio">)", 1024);
-}
-
-/// Refuses to replace files of somebody else: what no batch made, nor an earlier one in this folder was to make.
-/// \param documents, results  names in the folder: of tables' documents, and of all files
-void expect_own(const std::string& folder,
-                const std::vector<std::string>& documents,
-                const std::vector<std::string>& results) {
-  std::unordered_set<std::string> own;
-  if (const auto earlier = read_list(folder)) {
-    own = {"summary.csv", "summary.html", "summary.page.json"};
-    for (auto& name : document_names(earlier->tables)) {
-      own.insert(page_name(name));
-      own.insert(std::move(name));
-    }
-  }
-  const std::unordered_set<std::string> of_tables(documents.begin(), documents.end());
-  std::error_code none;
-  for (const auto& name : results) {
-    const std::string path = (fs::path(folder) / name).string();
-    if (own.contains(name) || !fs::is_regular_file(path, none)) continue;
-    const bool made_by_gonio = of_tables.contains(name)  ? is_batch_document(path)
-                               : name.ends_with(".html") ? is_page(path)
-                               : name.ends_with(".csv")
-                                   ? begins_with(path, "path,document,status", 32)
-                                   : begins_with(path, "\"gonio.", 1024);
-    if (!made_by_gonio)
-      throw bad_input(path, "writing", "a file that no batch made",
-                      "another folder for results, or that file elsewhere");
   }
 }
 

@@ -11,6 +11,7 @@
 #include "base/memory_budget.h"
 #include "base/sha256.h"
 #include "fitting/batch/batch.h"
+#include "fitting/batch/own_results.h"
 #include "table/format/metadata.h"
 
 #include <fmt/format.h>
@@ -239,9 +240,10 @@ BatchSummary gather(const std::string& folder,
   BatchSummary s = summary_of(folder, list, std::move(known));
   if (!list && s.rows.empty() && s.left_out.empty())
     throw bad_input(folder, "entries", "no result of a fit", "documents of gonio fit -o DIR");
-  for (const auto name :
-       {std::string_view("summary.csv"), page_data_name, std::string_view("summary.html")})
-    expect_no_link(place(folder, name));
+  const std::vector<std::string> results{"summary.csv", std::string(page_data_name),
+                                         "summary.html"};
+  for (const auto& name : results) expect_no_link(place(folder, name));
+  expect_own(folder, {}, results);
   const std::string data = batch_json(s, true);
   OutputFile csv(place(folder, "summary.csv")), page_data(place(folder, page_data_name));
   csv.write(batch_csv(s.rows));

@@ -358,13 +358,13 @@ MapExport export_map(const std::string& path, std::string& file) {
   };
   e.model = attribute("gonio:model");
   const std::string stack = attribute("gonio:stack");
-  expect_own_files_below(path, e.model);
-  for (const auto& f : own_files({e.model}))
+  const std::string model = model_of_file(path, e.model);
+  for (const auto& f : own_files({model}))
     if (attribute("gonio:shaders").find(f.sha256) == std::string::npos)
       throw bad_input(path, "gonio:shaders", "another text of " + f.file,
                       "the one that the map was fitted with");
   const auto names = attribute("gonio:channels");
-  const BoundModel start = bind_model(e.model, {}, split(std::string_view(names), ',').size());
+  const BoundModel start = bind_model(model, {}, split(std::string_view(names), ',').size());
   e.width = header.width;
   e.height = header.height;
   const std::size_t texels = e.width * e.height;

@@ -148,9 +148,9 @@ Section parameters_of(const MapDocument& d) {
 
 namespace gonio {
 
-std::string map_page_html(const MapDocument& d) {
+std::string map_page_html(const MapDocument& d, const std::string& map) {
   using namespace page;
-  const Cells cells = cells_of(d.path);
+  const Cells cells = cells_of(map);
   const auto texels = static_cast<double>(d.width * d.height);
   Page out{"", "fit_map", "Map of " + file_name(d.path),
            fmt::format("{} fitted to {} × {} texels", model_names(std::array{d.model})[0], d.width,

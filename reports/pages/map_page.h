@@ -8,7 +8,7 @@
 
 namespace gonio {
 
-/// HTML of a map that lies at MapDocument::path.  Pictures have at most 96 × 96 cells, each the texel at its middle.
-std::string map_page_html(const MapDocument&);
+/// \param map  file that holds the map, which will lie at MapDocument::path.  Pictures have at most 96 × 96 cells, each the texel at its middle.
+std::string map_page_html(const MapDocument&, const std::string& map);
 
 }  // namespace gonio

@@ -181,6 +181,27 @@ TEST(ExportCommand, FillsInWhatTexelsOfAMapDoNotKnowAndLetsNoneSetAllOthersHighl
             std::string::npos);
 }
 
+TEST(ExportCommand, RefusesAMapWhoseModelIsNoneOrLiesOutsideItsFolder) {
+  const Folder f;
+  std::filesystem::create_directories(f / "down");
+  f.write("private.glsl", "float D(float NoH, float a) { return my_unreleased_formula * NoH; }\n");
+  Image map{1,
+            1,
+            {"kd"},
+            {{0.5F}},
+            {{"gonio:schema", "gonio.map/1"}, {"gonio:stack", "none"}, {"gonio:channels", "Y"}}};
+  map.attributes["gonio:shaders"] = "";
+  for (const auto& [model, says] :
+       {std::pair("private.glsl", "--follow-paths"), std::pair("lambXrt", "no diffuse term")}) {
+    map.attributes["gonio:model"] = model;
+    write_exr(f / "down/map.exr", map);
+    const auto o = gonio(f, "export down/map.exr --to gltf -o m.gltf");
+    expect_one_line(o, 3, says);
+    EXPECT_EQ(o.err.find("my_unreleased_formula"), std::string::npos) << "nothing of it is quoted";
+    expect_one_line(o, 3, "down/map.exr");
+  }
+}
+
 TEST(ExportCommand, RefusesAMapTooLargeForTexturesBeforeItIsRead) {
   const Folder f;
   Image map;  // that its bytes pack to nothing costs nobody gigabytes

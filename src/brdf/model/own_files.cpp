@@ -5,6 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "brdf/model/model.h"
 #include "brdf/model/spec.h"
 #include "foreign/function.h"
 
@@ -79,6 +80,16 @@ std::string own_files_of_fit(const std::string& document, const std::string& spe
   }
 }
 
+std::string model_of_file(const std::string& file, const std::string& spec) {
+  const std::string from_here = own_files_of_fit(file, spec);
+  try {
+    compose(from_here, 1);
+  } catch (const Error& e) {  // the words are the file's, not the user's
+    throw bad_input(file, "model", e.what(), "a model that can be evaluated");
+  }
+  return from_here;
+}
+
 std::string own_files_as_named(const std::string& document, const std::string& spec) {
   const auto folder = std::filesystem::path(document).parent_path();
   if (folder.empty()) return spec;
@@ -107,19 +118,6 @@ std::vector<OwnFile> own_files(const std::vector<std::string>& specs, const std:
       continue;  // as above
     }
   return all;
-}
-
-void expect_own_files_below(const std::string& document, std::string_view spec) {
-  if (!names_own_file(spec)) return;
-  with_own_names(spec, [&](const std::string& name) {
-    try {
-      path_beside("document", foreign::parse_name(name).file);
-    } catch (const Error&) {
-      throw bad_input(document, "model", name,
-                      "a shader below the folder that gonio runs in, or --follow-paths");
-    }
-    return name;
-  });
 }
 
 }  // namespace gonio

@@ -39,13 +39,14 @@ std::string own_files_beside(const std::string& document, const std::string& spe
 /// also as the working folder of the fit saw them, where there is none beside it.
 /// \throws Error  bad input of the document where a file lies elsewhere, unless follow_paths() was called
 std::string own_files_of_fit(const std::string& document, const std::string& spec);
+/// The same of a file that has a spec among its texts, as a map.
+/// \throws Error  bad input of the file also where that is no model
+std::string model_of_file(const std::string& file, const std::string& spec);
 /// The same spec back as the document has it: without the document's folder.
 std::string own_files_as_named(const std::string& document, const std::string& spec);
 /// The files of some specs, each once.  A spec that is none has none.
 /// \param document  file that the specs stand in; "": they name files as the working folder sees them
 std::vector<OwnFile> own_files(const std::vector<std::string>& specs,
                                const std::string& document = {});
-/// Bad input of the document unless the spec's files lie below the folder that gonio runs in, or follow_paths() was called.
-void expect_own_files_below(const std::string& document, std::string_view spec);
 
 }  // namespace gonio

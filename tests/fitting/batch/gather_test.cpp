@@ -154,6 +154,23 @@ TEST(Gather, TellsADocumentThatCannotBeReadAndLeavesOthersFilesAlone) {
   EXPECT_EQ(test::read_bytes(t.out + "/notes.json"), R"({"by": "hand"})");
 }
 
+TEST(Gather, ReplacesNoSummaryOfSomebodyElse) {
+  const Tables t;
+  t.fit({t.paths[0]});
+  for (const char* name : {"summary.csv", "summary.html", "summary.page.json"}) {
+    const test::Folder other;
+    fs::copy(t.out + "/a.json", other / "a.json");
+    other.write(name, "my notes");
+    EXPECT_HAS(test::refusal([&] {
+                 gather(other / "", {}, [](const BatchSummary&, const std::string&) {
+                   return std::string("page");
+                 });
+               }),
+               "a file that no batch made");
+    EXPECT_EQ(test::read_bytes(other / name), "my notes");
+  }
+}
+
 TEST(Gather, ASideFileIsNoOtherWayOfMakingIt) {
   const Tables t;
   t.f.write("b.csv.gonio.json", R"({"schema": "gonio.table/1", "notes": {"by": "hand"}})");
