@@ -175,7 +175,7 @@ Section one_material(const ScenesReport& report) {
                             "is less than {} of all. The plan is `{}`.",
                             count_text(r.samples), many(r.exceeding, "point"),
                             plain(all.tolerance.limit), percent_given(all.tolerance.confidence),
-                            percent(r.upper_bound), r.spec),
+                            percent_at_most(r.upper_bound), r.spec),
                 "small verification"}}});
   }
   c.slots = {std::move(tables), slot_of(report.pictures, "front", c.controls, 320)};

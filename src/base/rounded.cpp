@@ -18,7 +18,7 @@ double unit_of(double x, int digits) {
 }  // namespace
 
 std::string rounded_up(double x, int digits) {
-  if (std::isfinite(x) && x > std::pow(10, digits))
+  if (std::isfinite(x) && x > std::pow(10, digits) - 1)
     return fmt::format("{:.0f}", std::ceil(x * (1 - own_rounding)));
   const auto text = fmt::format("{:.{}g}", x, digits);
   const double read = std::stod(text);
@@ -27,7 +27,7 @@ std::string rounded_up(double x, int digits) {
 }
 
 std::string rounded_down(double x, int digits) {
-  if (std::isfinite(x) && x > std::pow(10, digits))
+  if (std::isfinite(x) && x >= std::pow(10, digits) - 1)
     return fmt::format("{:.0f}", std::floor(x * (1 + own_rounding)));
   const auto text = fmt::format("{:.{}g}", x, digits);
   const double read = std::stod(text);

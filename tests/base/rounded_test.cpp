@@ -5,6 +5,13 @@
 namespace gonio {
 namespace {
 
+TEST(RoundedUp, WritesNoPowerOfTenForAHundred) {
+  EXPECT_EQ(rounded_up(100), "100");
+  EXPECT_EQ(rounded_up(99.2), "100");
+  EXPECT_EQ(rounded_up(9.96, 1), "10");
+  EXPECT_EQ(rounded_down(99.9), "99");
+}
+
 TEST(RoundedDown, NeverLiesAboveTheNumber) {
   EXPECT_EQ(rounded_down(1.4502), "1.4");
   EXPECT_EQ(rounded_down(33.76), "33");
