@@ -110,10 +110,9 @@ void print(const Answer& a, const std::string& decides) {
                            std::abs(c->value - c->exact) / least, least));
   }
   if (!a.worst_at.empty())
-    line("worst found",
-         fmt::format("{:.2g} relative where values are normal numbers{}, at {}",
-                     a.looked.relative.value, a.arithmetic.any_gpu ? ", in IEEE arithmetic" : "",
-                     a.worst_at));
+    line("worst found", fmt::format("{:.2g} relative{}, at {}, where values are normal numbers",
+                                    a.looked.relative.value,
+                                    a.arithmetic.any_gpu ? " in IEEE arithmetic" : "", a.worst_at));
   if (a.proved_rel) line("proved", fmt::format("{:.2g} relative at most", *a.proved_rel));
   if (a.range) line("within", fmt::format("{:.6g} to {:.6g}, proved", a.range->low, a.range->high));
   if (const auto& from = a.safe_from)
