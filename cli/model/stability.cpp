@@ -9,6 +9,7 @@
 #include "foreign/function.h"
 #include "reports/finding/words.h"
 #include "stability/answer.h"
+#include "stability/search.h"
 
 #include <fmt/format.h>
 
@@ -80,6 +81,10 @@ std::string evidence_of_least(const Least& l) {
   return l.evidence == Evidence::proved ? "proved" : "searched: there may be worse";
 }
 
+bool is_relative(const Answer& a) {
+  return a.requirement.starts_with("relative=");
+}
+
 /// \param decides  name of the parameter from which a requirement holds
 void print(const Answer& a, const std::string& decides) {
   const auto line = [](const char* name, const std::string& text) {
@@ -104,18 +109,25 @@ void print(const Answer& a, const std::string& decides) {
     line("",
          fmt::format("gives {:.9g}{}, exact {:.9g}", c->value,
                      a.arithmetic.any_gpu ? " in an arithmetic that GPUs may have" : "", c->exact));
+    if (const double least = least_asked(a.arithmetic.number);
+        is_relative(a) && std::abs(c->exact) < least && std::isfinite(c->value))
+      line("", fmt::format("off by {:.2g} of {:.3g}, the least that is asked for",
+                           std::abs(c->value - c->exact) / least, least));
   }
   if (!a.worst_at.empty())
-    line("worst found", fmt::format("{:.2g} relative{}, at {}", a.looked.relative.value,
+    line("worst found", fmt::format("{:.2g} relative{}, at {}, where values are normal numbers",
+                                    a.looked.relative.value,
                                     a.arithmetic.any_gpu ? " in IEEE arithmetic" : "", a.worst_at));
   if (a.proved_rel) line("proved", fmt::format("{:.2g} relative at most", *a.proved_rel));
   if (a.range) line("within", fmt::format("{:.6g} to {:.6g}, proved", a.range->low, a.range->high));
   if (const auto& from = a.safe_from)
-    line("safe from", fmt::format("{}{}: {} from there on, {}", least_text(*from, decides),
-                                  from->evidence == Evidence::searched && a.arithmetic.any_gpu
-                                      ? " in IEEE arithmetic"
-                                      : "",
-                                  from->requirement, evidence_of_least(*from)));
+    line("safe from",
+         fmt::format("{}{}: {}{}, {}", least_text(*from, decides),
+                     from->evidence == Evidence::searched && a.arithmetic.any_gpu
+                         ? " in IEEE arithmetic"
+                         : "",
+                     from->requirement, from->value ? " from there on" : " holds from no value on",
+                     evidence_of_least(*from)));
   for (const auto& l : a.least)
     line(&l == &a.least[0] ? "least" : "",
          fmt::format("{:<16}{:<14}{:<33} {}", l.requirement,

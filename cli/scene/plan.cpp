@@ -61,17 +61,17 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
   if (m.bounded) {
     say_below(
         "  check   ",
-        fmt::format("{:.3g} % of {} fresh points differ by at most {} {}; the worst by {}",
-                    100 * t.quantile, m.checked.samples, unit_of(t),
+        fmt::format("{} % of {} fresh points differ by at most {} {}; the worst by {}",
+                    in_percent(t.quantile), m.checked.samples, unit_of(t),
                     rounded_up(m.checked.upper, m.holds ? 2 : 3), rounded_up(m.checked.worst)));
     if (const double part = m.reference_error; part >= 0.1 * m.checked.upper)
       say("          up to {} of that may be the reference's own error\n", rounded_up(part));
   } else {
     say_below(
         "  check   ",
-        fmt::format("{:.3g} % of {} fresh points differ from {} by {} {:.2g}; no walk is known of "
+        fmt::format("{} % of {} fresh points differ from {} by {} {:.2g}; no walk is known of "
                     "this lobe, so that is no bound",
-                    100 * t.quantile, m.checked.samples, reference_in_words(m.reference),
+                    in_percent(t.quantile), m.checked.samples, reference_in_words(m.reference),
                     unit_of(t), m.checked.quantile));
   }
   if (!m.holds)
@@ -85,9 +85,15 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
                   "no shader has this table; with all else exact, what shaders have differs by {} "
                   "{:.2g} at best, without the reference's own error",
                   unit_of(t), m.shipped_quantile));
+  if (m.only_unseen && m.holds)
+    say_below("  beware  ",
+              "no other set keeps the tolerance both where sets are compared and on fresh points; "
+              "this one drops only what changes nothing");
   if (m.passed_over > 0)
-    say("          {} cheaper {} where chosen and failed on fresh points\n", m.passed_over,
-        m.passed_over == 1 ? "set held" : "sets held");
+    say_below("          ",
+              fmt::format("{} cheaper {} where chosen and failed on fresh points{}", m.passed_over,
+                          m.passed_over == 1 ? "set held" : "sets held",
+                          m.failed ? "; " + why_passed_over(m, cost) : ""));
 }
 
 /// Path of what is written beside the plan's document.

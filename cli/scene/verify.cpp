@@ -1,6 +1,7 @@
 // gonio verify: a plan on fresh points of its scene.
 #include "scene/plan/verify.h"
 
+#include "base/rounded.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "scene/plan/confidence.h"
@@ -19,15 +20,16 @@ struct VerifyCall : Common {
 };
 
 void print(const VerifiedMaterial& m, const Tolerance& t) {
-  const auto what = m.bounded
-                        ? fmt::format(
-                              "by more than {:.3g}, which is less than {:.2g} % of all with {:.3g} "
-                              "% confidence; the worst by {:.3g}",
-                              t.limit, 100 * m.found.bound, 100 * t.confidence, m.found.worst)
-                        : fmt::format(
-                              "from {} by more than {:.3g}, the worst by {:.3g}; no walk is known "
-                              "of this lobe, so that is no bound",
-                              reference_in_words(m.reference), t.limit, m.found.worst);
+  const auto worst = rounded_up(m.found.worst, 3);
+  const auto what =
+      m.bounded ? fmt::format(
+                      "by more than {:g}, which is less than {} % of all with {} % confidence; "
+                      "the worst by {}",
+                      t.limit, rounded_up(100 * m.found.bound), in_percent(t.confidence), worst)
+                : fmt::format(
+                      "from {} by more than {:g}, the worst by {}; no walk is known of this "
+                      "lobe, so that is no bound",
+                      reference_in_words(m.reference), t.limit, worst);
   say_below(fmt::format("{}: {}  ", m.name, m.holds ? "holds" : "is broken"),
             fmt::format("{} of {} points differ {}", m.found.exceeding, m.found.samples, what));
 }

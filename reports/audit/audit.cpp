@@ -2,6 +2,7 @@
 
 #include <mutex>
 
+#include "base/rounded.h"
 #include "base/whole_loop.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
@@ -45,7 +46,7 @@ std::string verdict(const EntryAudit& e) {
   if (e.distance) {
     const double off = e.distance->most.value;
     const auto of = e.distance->reference.substr(e.distance->reference.find('.') + 1);
-    words.push_back(off > far    ? fmt::format("far from {} (up to {:.2g})", of, off)
+    words.push_back(off > far    ? fmt::format("far from {} (up to {})", of, rounded_up(off))
                     : off > near ? fmt::format("{:.1g} from {}", off, of)
                                  : fmt::format("equal to {}", of));
   }

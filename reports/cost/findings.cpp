@@ -92,8 +92,9 @@ class Sayings {
   /// "takes 0.28 ± 0.02 ns more of a sample than", or that nothing tells them apart.
   static std::string takes(const CostSwitch& s) {
     if (!s.differs) return "takes the same time of a sample as";
-    return fmt::format("takes {} ns {} of a sample than", with_spread(std::abs(s.ns), s.ns_spread),
-                       s.ns > 0 ? "more" : "less");
+    return fmt::format("{} {} ns {} of a sample than",
+                       s.way == "fused" ? "takes, fused into one loop," : "takes",
+                       with_spread(std::abs(s.ns), s.ns_spread), s.ns > 0 ? "more" : "less");
   }
   /// Sentences on a form in place of another, in cache.
   void in_place_of(std::string_view from,
@@ -279,21 +280,23 @@ class Sayings {
   }
   /// Costs of a whole model's switches in a frame.
   void frame() {
-    // Switches are between composed models, so the frame is of one, too.
+    // Whole model and what is exchanged in it: all composed, as a shader with switches is.
     const auto* whole = row("ggx/smith_ggx.correlated/schlick", "cache", "composed");
     if (!whole) return;
     const auto ms = [](double ns) { return 1e-6 * frame_samples * ns; };
     say("A frame of 1080p takes {} ms of one processor for one light by GGX with "
         "height-correlated Smith and Schlick, composed of its terms, in cache.",
         short_text(ms(whole->time.ns)));
-    const auto* smith = between("ggx/schlick_ggx.direct/schlick",
-                                "ggx/smith_ggx.correlated/schlick", best_, "cache");
-    const auto* metal = between("ggx/smith_ggx.correlated/schlick",
-                                "ggx/smith_ggx.correlated/conductor", best_, "cache");
-    if (smith && metal)
-      say("Exact Smith in place of Schlick's k is {} of that, and a metal's exact Fresnel {} more.",
-          smith->differs ? short_text(ms(smith->ns)) + " ms" : "nothing that can be measured",
-          short_text(ms(metal->ns)) + " ms");
+    const auto *direct = row("ggx/schlick_ggx.direct/schlick", "cache", "composed"),
+               *metal = row("ggx/smith_ggx.correlated/conductor", "cache", "composed");
+    if (!direct || !metal) return;
+    const auto text = [&](const CostRow& from, const CostRow& to) {
+      const auto d = difference(compared(from), compared(to));
+      return d.survives && d.ns > 0 ? short_text(ms(d.ns)) + " ms"
+                                    : std::string("nothing that can be measured");
+    };
+    say("Exact Smith in place of Schlick's k is {} of that, and a metal's exact Fresnel {} more.",
+        text(*direct, *whole), text(*whole, *metal));
   }
   void half() {
     say("This processor has {}: times are of float and double.",

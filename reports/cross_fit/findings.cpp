@@ -18,6 +18,9 @@ namespace {
 
 using Cases = std::vector<const CrossCase*>;
 
+/// What sentences are of that name no other metric and directions: Where's.
+constexpr std::string_view by_log = "by the log metric on a slice to 80°";
+
 constexpr std::string_view once = "GGX", all_orders = "GGX, all orders", glass = "IOR 1.5",
                            both = "gtr/schlick_ggx.direct/schlick";
 
@@ -155,9 +158,8 @@ void roughness_of_dielectrics(Findings& to, const CrossFitRows& r) {
   for (const auto form :
        {form_id::direct_k, std::string_view("masking.ue_joint"), form_id::schlick})
     if (const auto s = shifts(dielectrics(cases_of(r, {once, form})), "roughness"))
-      to.say(fmt::format(
-          "With {} the roughness of dielectrics shifts {}, by the log metric on a slice to 80°.",
-          with(form), span(s, signed_number)));
+      to.say(fmt::format("With {} the roughness of dielectrics shifts {}, {}.", with(form),
+                         span(s, signed_number), by_log));
 }
 
 /// Gamma that takes up what two approximations leave.
@@ -170,7 +172,7 @@ void gamma_of_both(Findings& to, const CrossFitRows& r) {
       s.found, {}, [](const Shift& x) { return std::abs(x.in->roughness - usual); });
   to.say(
       fmt::format("Schlick and k = (r+1)²/8 together bend the tail of glass (IOR 1.5): at "
-                  "roughness {:g} GTR's gamma shifts by {}.",
+                  "roughness {:g} GTR's gamma shifts by {}, by the log metric on that slice.",
                   near.in->roughness, signed_number(near.by)));
   const auto& most =
       *std::ranges::max_element(s.found, {}, [](const Shift& x) { return std::abs(x.by); });
@@ -181,8 +183,8 @@ void gamma_of_both(Findings& to, const CrossFitRows& r) {
 
 /// Words for where a material looks rougher than it is, or smoother.
 std::string looks(const Shift& s) {
-  return fmt::format("{} by up to {:.2g} ({})", s.by > 0 ? "rougher" : "smoother", std::abs(s.by),
-                     s.in->material);
+  return fmt::format("{} by up to {} ({})", s.by > 0 ? "rougher" : "smoother",
+                     rounded_up(std::abs(s.by)), s.in->material);
 }
 
 void lost_energy(Findings& to, const CrossFitRows& r) {
@@ -193,9 +195,9 @@ void lost_energy(Findings& to, const CrossFitRows& r) {
     const auto &up = roughness.most(), &down = roughness.least();
     const auto& most = std::abs(up.by) > std::abs(down.by) ? up : down;
     to.say(fmt::format(
-        "Fitted with single scattering, {} whose light meets several facets look {}; their F0 "
-        "shifts {}.",
-        group.name, looks(most), span(f0, signed_percent)));
+        "Fitted with single scattering, {} whose light meets several facets look {}, {}. Their F0 "
+        "shifts {} there.",
+        group.name, looks(most), by_log, span(f0, signed_percent)));
     if (f0.at_bound > 0)
       to.say(
           fmt::format("The shift of F0 is known for {} values; the others ended at a bound or "
@@ -235,9 +237,10 @@ void other_gammas(Findings& to, const CrossFitRows& r) {
       truths.push_back(c.truth);
   for (const auto truth : truths)
     if (const auto s = shifts(cases_of(r, {truth, "ggx/smith_ggx.correlated/exact"}), "roughness"))
-      to.say(fmt::format("GGX fitted to a surface of {} shifts roughness {}.",
-                         fmt::format("GTR with gamma {}", truth.substr(4)),
-                         span(s, signed_number)));
+      to.say(
+          fmt::format("GGX fitted to a surface of GTR with gamma {} shifts roughness {}, by the "
+                      "log metric on that slice.",
+                      truth.substr(4), span(s, signed_number)));
 }
 
 double middle_of(std::vector<double> all) {
@@ -380,7 +383,7 @@ std::vector<CrossSentence> sentences_of_forms(const CrossFitRows& r) {
       tell("roughness", "Roughness", signed_number);
       tell("f0", "F0", signed_percent);
       tell("gamma", "Gamma", signed_number);
-      parts.push_back(fmt::format("The residual is up to {}", number(most_residual(cases))));
+      parts.push_back(fmt::format("The residual is up to {}", rounded_up(most_residual(cases))));
       if (const double noise = rms_noise(cases); noise > 0)
         parts.back() += fmt::format(", with {:.1g} of the walks' noise in it", noise);
     }

@@ -68,7 +68,8 @@ Section over_roughness_of(const CrossFitReport& r) {
   return {"Over roughness",
           "The shift of each parameter that the form causes. F0 of metals is the mean of the "
           "channels. Points at a bound are left out. Where light meets several facets, bars show "
-          "the uncertainty of the random walks; the exact form of single scattering is dashed.",
+          "the uncertainty of the random walks; the exact form of single scattering is dashed. "
+          "All of this is by the log metric on a slice to 80°.",
           {c, Subtitle{"Each in a sentence"}, sentences}};
 }
 

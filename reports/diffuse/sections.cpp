@@ -109,7 +109,8 @@ page::Page report_page(const DiffuseReport& r) {
                             "Frostbite's and Hammon's form, σ = r radians for Oren–Nayar as in "
                             "MaterialX, r itself for Fujii's and EON.",
                             "Albedos are integrals, exact to 10⁻⁶. Times are of column kernels, in "
-                            "float and in cache, on one thread.",
+                            "float and in cache, on one thread. A form is written here. In the "
+                            "report on costs it is added to a lobe, which takes longer.",
                             "Coupled forms reflect what the interface of a lobe leaves. Hammon's, "
                             "Disney's and Frostbite's contain an interface. None of them is a "
                             "matte surface: they are compared on plastic only."}}}}};

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <set>
 
 #include "image/display.h"
 #include "reports/energy/energy.h"
@@ -51,13 +52,17 @@ void add_split_sum(Facts& to, const ImageLight& light) {
   if (table == light.tables.end()) return;
   constexpr std::size_t bytes_of_texel = 2 * 2;
   Facts::SplitSum s{table->size, table->size * table->size * bytes_of_texel, table->lookup_rms};
+  std::set<std::string_view> skies;
   for (const auto& l : light.lit) {
+    if (l.f0 != 1) continue;  // white metal
+    skies.insert(l.environment);
     auto* const seen = l.nov == 1     ? &s.head_on
                        : l.nov == 0.5 ? &s.from_side
                        : l.nov == 0.1 ? &s.grazing
                                       : nullptr;
     if (seen) *seen = std::max(seen->value_or(0), l.delta_e);
   }
+  s.skies = skies.size();
   if (!light.costs.empty()) s.ns = light.costs[0].ns;  // the split sum's
   to.split_sum = s;
 }

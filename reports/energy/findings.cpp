@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/presets.h"
@@ -104,10 +105,31 @@ void of_compensations(Findings& to, const EnergyRows& r) {
                     rms("kulla_conty"), rms("turquin"), rms("fdez_aguera")));
   if (r.albedo_forms.size() == 3)
     to.say(fmt::format(
-        "The albedo E of GGX as a formula of {} operations is off by {:.2g} at most. MaterialX's "
-        "fit of it takes {} and is off by {:.2g}.",
-        r.albedo_forms[0].operations, std::abs(r.albedo_forms[0].worst),
-        r.albedo_forms[1].operations, std::abs(r.albedo_forms[1].worst)));
+        "The albedo E of GGX as a formula of {} operations is off by {} at most. MaterialX's "
+        "fit of it takes {} and is off by up to {}.",
+        r.albedo_forms[0].operations, rounded_up(std::abs(r.albedo_forms[0].worst)),
+        r.albedo_forms[1].operations, rounded_up(std::abs(r.albedo_forms[1].worst))));
+}
+
+/// "0.75", "0.75 to 0.9": roughnesses at which a light by itself shows a way farther from all bounces than nothing is.
+std::string farther_at(const std::vector<SingleLight>& all,
+                       std::string_view light,
+                       std::string_view way,
+                       double f0,
+                       double from) {
+  std::optional<double> least, most;
+  for (const auto& s : all) {
+    if (s.light != light || s.id != way || s.f0 != f0 || s.roughness < from) continue;
+    for (const auto& nothing : all)
+      if (nothing.light == light && nothing.id == "single" && nothing.f0 == f0 &&
+          nothing.roughness == s.roughness && nothing.delta_e < s.delta_e) {
+        if (!least) least = s.roughness;
+        most = s.roughness;
+      }
+  }
+  return !least            ? std::string()
+         : *least == *most ? fmt::format("{:g}", *least)
+                           : fmt::format("{:g} to {:g}", *least, *most);
 }
 
 /// Under a single light the order is that of pictures, and need not be that of albedos.
@@ -132,8 +154,8 @@ void of_single_lights(Findings& to, const EnergyRows& r) {
     const auto from = nearer_from(*way, *nothing);
     if (!from) {
       to.say(
-          fmt::format("Under a single light, white metal of F0 = {:g} with {} is no nearer to "
-                      "all bounces than with nothing.",
+          fmt::format("Under the worse of a front and a rim light, white metal of F0 = {:g} with "
+                      "{} is no nearer to all bounces than with nothing.",
                       metal, w.name));
       w.left = HUGE_VAL;
       continue;
@@ -145,13 +167,17 @@ void of_single_lights(Findings& to, const EnergyRows& r) {
         without = std::max(without, nothing->delta_e[i]);
       }
     to.say(fmt::format(
-        "Under a single light, white metal of F0 = {:g} with {} is nearer to all "
-        "bounces than with nothing {}.",
+        "Under the worse of a front and a rim light, white metal of F0 = {:g} with {} is nearer "
+        "to all bounces than with nothing {}.",
         metal, w.name,
         *from == way->roughness.front() ? std::string("at every roughness looked at")
                                         : fmt::format("from roughness {:g} on", *from)));
-    to.say(fmt::format("There it leaves ΔE2000 {:.2g} at most, where one bounce leaves {:.2g}.",
-                       w.left, without));
+    to.say(fmt::format("There it leaves ΔE2000 {} at most, where one bounce leaves up to {}.",
+                       rounded_up(w.left), rounded_up(without)));
+    for (const std::string_view light : {"front light", "rim light"})
+      if (const auto at = farther_at(r.single_lights, light, w.id, metal, *from); !at.empty())
+        to.say(fmt::format("Under the {} by itself {} is farther than nothing at roughness {}.",
+                           light, w.name, at));
   }
   const auto rms = [&](const Way& w) {
     const auto c = std::ranges::find(r.compensations, w.id, &CompensationCost::id);
@@ -180,8 +206,8 @@ void of_split_sum(Findings& to, const EnergyRows& r) {
       to.say(
           fmt::format("Over every NoV and roughness, a split-sum table of 32 × 32 texels "
                       "in half gives A + B to {:.2g} RMS. Beyond the outermost centres, at grazing "
-                      "angles, it is off by up to {:.2g}.",
-                      t.lookup_rms, t.lookup));
+                      "angles, it is off by up to {}.",
+                      t.lookup_rms, rounded_up(t.lookup)));
   const auto most = [&](double f0, double nov) {
     const LitError* worst = nullptr;
     for (const auto& l : r.light.lit)
@@ -191,22 +217,22 @@ void of_split_sum(Findings& to, const EnergyRows& r) {
   if (const auto* head_on = most(1, 1), *grazing = most(1, 0.1); head_on && grazing) {
     const auto light = [](const LitError& l) { return fmt::format("the {}", l.environment); };
     to.say(
-        fmt::format("The split sum changes white metal seen head on by a mean ΔE2000 of {:.2g} "
+        fmt::format("The split sum changes white metal seen head on by a mean ΔE2000 of {} "
                     "at most, under {} at roughness {:g}.",
-                    head_on->delta_e, light(*head_on), head_on->roughness));
+                    rounded_up(head_on->delta_e), light(*head_on), head_on->roughness));
     if (const auto* side = most(1, 0.5))
       to.say(
-          fmt::format("Seen at mu = 0.5, where the lobe is no longer round, it is {:.2g}, under "
-                      "{}.",
-                      side->delta_e, light(*side)));
-    to.say(
-        fmt::format("Seen at mu = 0.1 it is {:.2g}, under {}.", grazing->delta_e, light(*grazing)));
+          fmt::format("Seen at mu = 0.5, where the lobe is no longer round, it is up to {}, "
+                      "under {}.",
+                      rounded_up(side->delta_e), light(*side)));
+    to.say(fmt::format("Seen at mu = 0.1 it is up to {}, under {}.", rounded_up(grazing->delta_e),
+                       light(*grazing)));
   }
   if (const auto* plastic = most(0.04, 0.1))
     to.say(
         fmt::format("Black plastic of F0 = 0.04, seen at mu = 0.1, changes by a mean ΔE2000 of "
-                    "{:.2g} at most.",
-                    plastic->delta_e));
+                    "{} at most.",
+                    rounded_up(plastic->delta_e)));
   if (r.light.costs.size() == 2)
     to.say(
         fmt::format("A pixel of image-based light takes {:.0f} ns by the split sum, and {:.2g} "
@@ -238,8 +264,8 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
   to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
            fmt::format("{} forms exceed it", of_all(makers, makes.size())),
            fmt::format("{} forms reflect more light than arrives somewhere.{} The others reflect "
-                       "{:.4f} of it at most.",
-                       of_all(makers, makes.size()), words, largest));
+                       "{} of it at most.",
+                       of_all(makers, makes.size()), words, rounded_up(largest, 4)));
 }
 
 void energy_does_not_stay(Findings& to, const EnergyRows& r) {
@@ -280,21 +306,23 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
   // D without 1/π is 1/α² at its peak.
   const double reached = std::pow(2048.0, -0.25);
   const auto& most = *std::ranges::max_element(r.claims.clamped, {}, &ClaimRows::Clamped::lost);
-  to.judge("the clamp at 2048 hardly shows", "", verdict_on_small(most.lost),
-           fmt::format("up to {} of the highlight is lost", percent(most.lost)),
-           fmt::format("it is reached only below roughness {:.3f}. Seen head on, it there takes "
-                       "up to {} of the highlight's light, at roughness {:g}.",
-                       reached, percent(most.lost), most.roughness));
+  to.judge(
+      "the clamp at 2048 hardly shows", "", verdict_on_small(most.lost),
+      fmt::format("{} of the highlight is lost at roughness {:g}, more below it",
+                  percent(most.lost), most.roughness),
+      fmt::format("it is reached only below roughness {:.3f}. Seen head on, it takes {} of the "
+                  "highlight's light at roughness {:g}, the smoothest looked at.",
+                  reached, percent(most.lost), most.roughness));
 }
 
 void look_of_the_simple_form(Findings& to, const EnergyRows& r) {
   if (!find_form(r.forms, "model.ue_mobile_simple") || r.claims.simple_form.empty()) return;
   const auto& most = *std::ranges::max_element(r.claims.simple_form, {}, &ClaimRows::Look::delta_e);
   to.judge("the simple mobile form keeps the look", "", verdict(most.delta_e <= 1),
-           fmt::format("ΔE2000 up to {:.2g}", most.delta_e),
-           fmt::format("under even light it differs from GGX with Smith and Schlick by up to "
-                       "ΔE2000 {:.2g}. That is of F0 = {:g} at {}. It has no Fresnel, and no "
-                       "angles in its visibility.",
+           fmt::format("ΔE2000 {:.2g} at {}", most.delta_e, place(most.roughness, most.mu)),
+           fmt::format("under even light it differs from GGX with Smith and Schlick by ΔE2000 "
+                       "{:.2g}. That is for F0 = {:g} at {}. Smoother surfaces were not looked at. "
+                       "It has no Fresnel, and no angles in its visibility.",
                        most.delta_e, most.f0, place(most.roughness, most.mu)));
 }
 

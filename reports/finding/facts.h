@@ -77,6 +77,7 @@ struct Facts {
     double tolerance;
     std::optional<double> safe_from;
     double zenith_deg = 0;  ///< of a lobe: up to which of light and view
+    double least_f0 = 0;    ///< of a lobe
   };
   std::vector<Precision> precision{};
   /// Measured materials by the tail of their highlight, (1 + …)^−γ, as others published it, each fitted with GGX and with GTR.
@@ -90,8 +91,9 @@ struct Facts {
   struct SplitSum {
     std::size_t size, bytes;
     double rms;
-    /// Greatest ΔE2000 of the split itself, mean over the views of one environment, F0 and roughness: head on, at cosine 0.5 and at
-    /// cosine 0.1.
+    std::size_t skies = 0;  ///< by formula, and environments that were given
+    /// Greatest ΔE2000 of the split itself on white metal, mean over the views of one environment and roughness: head on, at cosine
+    /// 0.5 and at cosine 0.1.
     std::optional<double> head_on{}, from_side{}, grazing{};
     std::optional<double> ns{};  ///< of a pixel
   };

@@ -20,19 +20,16 @@ std::string percent(double share, int digits) {
                      large ? fmt::format("{:.0f}", y) : fmt::format("{:.{}g}", y, digits));
 }
 
+std::string percent_given(double share) {
+  return in_percent(share) + "\u00a0%";
+}
+std::string percent_at_most(double share, int digits) {
+  return rounded_up(100 * share, digits) + "\u00a0%";
+}
+
 std::string short_text(double x) {
   if (x > 0 && x < least_read) return "under 0.0001";
   return x < 9.95 ? fmt::format("{:.2g}", x) : fmt::format("{:.0f}", x);
-}
-std::string rounded_up(double x, int digits) {
-  constexpr double own_rounding = 1e-12;
-  if (std::isfinite(x) && x > std::pow(10, digits))
-    return fmt::format("{:.0f}", std::ceil(x * (1 - own_rounding)));
-  const auto text = fmt::format("{:.{}g}", x, digits);
-  const double read = std::stod(text);
-  if (!std::isfinite(x) || x == 0 || read >= x * (1 - own_rounding)) return text;
-  const double unit = std::pow(10, std::floor(std::log10(std::abs(x))) + 1 - digits);
-  return fmt::format("{:.{}g}", read + unit, digits);
 }
 std::string at_most(double x, int digits) {
   return "≤ " + rounded_up(std::max(x, x > 0 ? least_read : x), digits);

@@ -7,16 +7,19 @@
 #include <string_view>
 #include <vector>
 
+#include "base/rounded.h"
 #include "reports/finding/report.h"
 
 namespace gonio {
 
 /// "−59.1 %": to so many digits, of large ones to the last before the point.
 std::string percent(double share, int digits = 3);
+/// A share that somebody gave, with all its digits: "99.5 %".
+std::string percent_given(double share);
+/// "0.019 %" of 0.000183: a share that something stays below, never read as less.
+std::string percent_at_most(double share, int digits = 2);
 /// "0.031", "4.2", "120", "under 0.0001": as it is read aloud, without a power of ten.  \param x  not negative
 std::string short_text(double x);
-/// A number to so many digits, never below it: "0.004" of 0.00391.  A limit from which on something holds stays one where it is read.
-std::string rounded_up(double, int digits = 2);
 /// "≤ 2.5" of 2.41: a bound as it is read, never below the number; of what is smaller "≤ 0.0001".
 std::string at_most(double, int digits = 2);
 /// "2", "none"

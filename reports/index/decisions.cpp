@@ -343,7 +343,7 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
   if (other && other->form != single)
     unless += fmt::format("; time is short: {}, {}", name_of_form(other->form),
                           delta_at_most(other->error));
-  Decision d{fmt::format("Multiple scattering under {} (of bright metal, F0 {:g})",
+  Decision d{fmt::format("Multiple scattering under {}, F0 {:g} (bright metal)",
                          of_image_light ? "image-based light" : "single lights", bright),
              "None",
              "scattering." + taken->form,
@@ -368,7 +368,8 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
   const auto& s = *f.split_sum;
   // A sphere shows its middle head on, and most of itself from the side.
   to.push_back(
-      {"Image-based light", fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
+      {fmt::format("Image-based light on white metal, worst of {} skies", s.skies),
+       fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
        s.head_on && s.from_side ? fmt::format("mean ΔE {} head on, {} at 60°", at_most(*s.head_on),
                                               at_most(*s.from_side))
                                 : fmt::format("RMS {:.1g} of E", s.rms),
@@ -376,7 +377,7 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
        s.grazing
            ? fmt::format("rims are looked at: integrate; the split sum's mean ΔE reaches {} at "
                          "cosine 0.1",
-                         short_number(*s.grazing))
+                         rounded_up(*s.grazing))
            : ""});
 }
 
@@ -408,7 +409,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   if (!taken || lambert == f.diffuse.end() || !time) return;
   const auto cheap = candidate(std::string(cheap_id), 0, *time);
   const auto& own = below_lobe ? lambert->below_lobe : lambert->matte;
-  const auto made = [&](const Facts::Diffuse& d) { return percent(most_light(d), 3); };
+  const auto made = [&](const Facts::Diffuse& d) { return percent_at_most(most_light(d), 4); };
   Decision d{below_lobe ? "Diffuse below a lobe (F0 0.04)" : "Diffuse of matte surfaces",
              name_of_form(taken->form),
              taken->form,
@@ -454,8 +455,9 @@ void precision(std::vector<Decision>& to, const Facts& f) {
   }
   to.push_back({"Precision: D V F NoL of GGX in half",
                 fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
-                fmt::format("≤ {} for light and view up to {:.0f}° (search, not proof)",
-                            percent(half->tolerance, 1), half->zenith_deg),
+                fmt::format("≤ {} on metal up to {:.0f}°, by search (F0 from {:g}; light and view; "
+                            "no proof)",
+                            percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
                 fmt::format("smoother surfaces render as roughness {}",
                             rounded_up(std::sqrt(*half->safe_from))),
                 fmt::format("only D is in half: α clamped at {}", rounded_up(*own->safe_from))});

@@ -363,7 +363,7 @@ std::string nearest_text(const FunctionAudit& a) {
   const auto& n = *a.nearest;
   const auto id = catalogue()[n.term].id();
   const std::string map = width_text(n.width, n.power);
-  if (!is_same(n)) return fmt::format("{}{}: up to {:.2g} apart", id, map, n.difference);
+  if (!is_same(n)) return fmt::format("{}{}: up to {} apart", id, map, rounded_up(n.difference));
   return fmt::format("{}{}", id, map);
 }
 

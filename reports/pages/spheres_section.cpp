@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "base/rounded.h"
 #include "base/text.h"
 #include "image/colour_difference.h"
 #include "reports/page/numbers.h"
@@ -183,7 +184,7 @@ page::Section spheres_section(const Spheres& s, std::string_view name, std::size
     out.text = fmt::format(
         "No sphere is shown: the table covers {} of what each of the three lights reaches, and a "
         "third is needed.",
-        most > 0 ? "at most " + percent(most) : "none");
+        most > 0 ? "at most " + rounded_up(100 * most) + "\u202f%" : "none");
     return out;
   }
   out.text = answer(shown, s, name);

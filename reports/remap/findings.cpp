@@ -162,11 +162,12 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
   }
   if (most == 0) return;
   to.judge("F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
-           fmt::format("off by a factor of up to {:.2g}; with a ¼ by up to {:.2g}", most, with_it),
+           fmt::format("off by a factor of up to {}; with a ¼ by up to {}", rounded_up(most),
+                       rounded_up(with_it)),
            fmt::format(
                "as printed it lacks a factor of ¼. On glass in the mirror direction it is off by "
-               "a factor of up to {:.2g}. With the ¼, as it was published, by up to {:.2g}.",
-               most, with_it));
+               "a factor of up to {}. With the ¼, as it was published, by up to {}.",
+               rounded_up(most), rounded_up(with_it)));
 }
 
 }  // namespace

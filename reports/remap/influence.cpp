@@ -32,12 +32,12 @@ void judge_influence_of_masking(Findings& to, const RemapRows& r) {
   to.judge(
       "but for grazing angles and very rough surfaces, G matters little", "",
       verdict_on_small(within),
-      fmt::format("up to {} more light without it there", percent(within, 2)),
+      fmt::format("up to {} more light without it there", percent_at_most(within)),
       fmt::format("at cosines from {:g} on and roughness up to {:g}, GGX without masking reflects "
                   "up to {} more. At cosine {:g} and roughness {:g} it is {}.",
-                  least_mu, most_roughness, percent(within, 2), mu, roughness,
+                  least_mu, most_roughness, percent_at_most(within), mu, roughness,
                   beyond > 10 ? fmt::format("{:.0f} times as much", 1 + beyond)
-                              : percent(beyond, 2) + " more"));
+                              : percent_at_most(beyond) + " more"));
 }
 
 }  // namespace gonio

@@ -102,7 +102,7 @@ void savings(Findings& to, const ScenesRows& r) {
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",
-      capital(std::string(no_difference)), r.tolerance.limit, percent(r.tolerance.quantile, 2)));
+      capital(std::string(no_difference)), r.tolerance.limit, percent_given(r.tolerance.quantile)));
 }
 
 /// Part of float in the speed, apart from what plans drop.
@@ -204,7 +204,7 @@ void verified(Findings& to, const ScenesRows& r) {
         fmt::format("On fresh points {} hold: the share of points beyond the limit is at most {}, "
                     "with a confidence of {}.",
                     r.rows.size() == 1 ? "the plan is seen to" : "all plans",
-                    percent(worst->upper_bound, 2), percent(r.tolerance.confidence, 2)));
+                    percent_at_most(worst->upper_bound), percent_given(r.tolerance.confidence)));
   else
     to.say(fmt::format("On fresh points {} plans do not hold: {}.",
                        of_all(broken.size(), r.rows.size()), scenes_text(broken)));

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/text.h"
 #include "reports/finding/words.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
@@ -75,7 +76,7 @@ const scene::MaterialPlan* farthest(const scene::Plan& p, bool bounded) {
 
 /// How far the plan was found to be off, in the materials that differ most.
 void say_errors(std::vector<std::string>& out, const scene::Plan& p, const std::string& unit) {
-  const auto most = percent(p.tolerance.quantile);
+  const auto most = percent_given(p.tolerance.quantile);
   const auto of = [&](const scene::MaterialPlan& m) {
     return p.materials.size() == 1 ? std::string() : ", of " + m.name;
   };
@@ -204,6 +205,16 @@ Section spheres(const scene::Scene& s, const scene::Plan& p) {
               "</div>"}}};
 }
 
+/// What a set of the front failed by on fresh points.
+std::string failure(const scene::MaterialPlan& m, const scene::Candidate& c) {
+  if (m.failed && c.failed->worst > m.failed->most_worst)
+    return "failed, worst " + rounded_up(c.failed->worst);
+  return std::isfinite(c.failed->exceeding_bound)
+             ? fmt::format("failed, up to {} beyond the limit",
+                           percent_at_most(c.failed->exceeding_bound))
+             : "failed";
+}
+
 Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::string& unit_name) {
   Table t{{{"effect"},
            {"here"},
@@ -250,48 +261,72 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                                    : "No set of forms keeps the tolerance here, with the budget or "
                                      "without."});
   const std::string failed =
-      m.passed_over ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set")) : "";
+      m.passed_over ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set")) +
+                          (m.failed ? " " + capital(why_passed_over(m, p.cost)) + "." : "")
+                    : "";
   s.parts.emplace_back(Prose{
       m.bounded
-          ? fmt::format(
-                "Checked on {} fresh points: less than {}\u202f% of all exceed the limit, with a "
-                "confidence of {}. The error of the reference is in it.{}",
-                count_text(c.samples), rounded_up(100 * c.bound), percent(p.tolerance.confidence),
-                failed)
+          ? fmt::format("Checked on {} fresh points: less than {} of all exceed the limit, with a "
+                        "confidence of {}. The error of the reference is in it.{}",
+                        count_text(c.samples), percent_at_most(c.bound),
+                        percent_given(p.tolerance.confidence), failed)
           : fmt::format("Checked on {} fresh points beside {}. No walk is known of this lobe, so "
                         "nothing is claimed beyond these points.{}",
                         count_text(c.samples), scene::reference_in_words(m.reference), failed),
       "small"});
+  if (m.only_unseen && m.holds)
+    s.parts.emplace_back(
+        Prose{"No other set keeps the tolerance both where sets are compared and on fresh points, "
+              "so the plan drops only what changes nothing."});
   s.parts.emplace_back(Prose{fmt::format("The model: `{}`", m.spec), "small"});
   if (m.front.size() > 1) {
+    const bool by_time = p.cost == scene::Cost::time;
+    const auto keeps = [&](const scene::Judgement& j) {
+      return m.bounded ? j.keeps(p.tolerance)
+                       : j.quantile <= p.tolerance.limit && j.worst <= p.tolerance.max;
+    };
     Table front{{{"keeps"},
                  {"ns", true},
+                 {"spread", true},
                  {"operations", true},
-                 {fmt::format("{} at {}", unit_name, percent(p.tolerance.quantile)), true},
+                 {fmt::format("{} at {}", unit_name, percent_given(p.tolerance.quantile)), true},
                  {"worst", true}},
                 {}};
-    bool has_plan = false;
+    bool has_plan = false, has_faster = false;
     for (const auto& f : m.front) {
       const bool is_plan = f.forms == m.forms;
       has_plan = has_plan || is_plan;
-      front.add(Cell{kept_words(f.forms), {}, is_plan ? "the plan" : "", ""}, significant(f.ns),
-                rounded(f.ops),
+      has_faster = has_faster || (by_time && !f.failed && f.ns < m.ns && keeps(f.error));
+      front.add(Cell{kept_words(f.forms),
+                     {},
+                     is_plan    ? "the plan"
+                     : f.failed ? failure(m, f)
+                                : "",
+                     ""},
+                significant(f.ns), "± " + significant(f.spread(), 2), rounded(f.ops),
                 m.bounded ? at_most(f.error.upper) : significant(f.error.quantile, 2),
                 bound_text(f.error.worst));
     }
-    s.parts.emplace_back(Subtitle{
-        fmt::format("{} sets of which none {} and errs less", m.front.size(),
-                    p.cost == scene::Cost::time ? "is faster" : "takes fewer operations")});
+    s.parts.emplace_back(
+        Subtitle{fmt::format("{} sets of which none {} and errs less", m.front.size(),
+                             by_time ? "is faster" : "takes fewer operations")});
+    s.parts.emplace_back(
+        Prose{fmt::format("Their errors are of the {} points that sets are compared on, and not of "
+                          "the fresh points on which the plan was checked.",
+                          count_text(m.front[0].error.samples)),
+              "small"});
     s.parts.emplace_back(front);
-    if (!has_plan && m.holds)
+    if (m.holds && !p.budget && !m.only_unseen && (!has_plan || has_faster)) {
+      const auto which =
+          has_plan ? std::string("A faster set keeps the tolerance, too.")
+                   : fmt::format("The plan, at {} ns, is none of them.", significant(m.ns));
       s.parts.emplace_back(Prose{
-          p.cost == scene::Cost::time
-              ? fmt::format("The plan, at {} ns, is none of them: among sets that cost as much, "
-                            "within the spread, it keeps the fewest effects.",
-                            significant(m.ns))
-              : "The plan is none of them: among sets of as many operations it keeps the fewest "
-                "effects.",
+          by_time ? which + " Times within their spread count as the same, and among such sets the "
+                            "plan keeps the fewest effects, then takes the fewest operations."
+                  : "The plan is none of them: among sets of as many operations it keeps the "
+                    "fewest effects.",
           "small"});
+    }
   }
   return s;
 }
@@ -300,6 +335,21 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
 }  // namespace gonio::page
 
 namespace gonio {
+
+std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
+  const auto& f = *m.failed;
+  const auto at = cost == scene::Cost::time
+                      ? fmt::format("{:.3g} ns", f.ns)
+                      : counted(static_cast<std::size_t>(std::round(f.ops)), "operation");
+  const auto which = fmt::format("the cheapest{}, at {},", m.passed_over > 1 ? " of them" : "", at);
+  if (f.fails_at_worst())
+    return fmt::format("{} differs by {} at its worst point, where a plan may differ by {}", which,
+                       rounded_up(f.error.worst), rounded_down(f.most_worst));
+  return m.bounded
+             ? fmt::format("{} may exceed the limit at {} % of all points, a plan at {} %", which,
+                           rounded_up(100 * f.error.bound), rounded_down(100 * f.most_exceeding))
+             : which + " exceeds the limit at too many points";
+}
 
 std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
   using namespace page;
@@ -311,7 +361,7 @@ std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
            {"operations", true},
            {"keep"},
            {"drop"},
-           {fmt::format("{} at {}", unit_name, page::percent(p.tolerance.quantile)), true},
+           {fmt::format("{} at {}", unit_name, percent_given(p.tolerance.quantile)), true},
            {"worst", true}},
           {},
           "told-by-cell"};

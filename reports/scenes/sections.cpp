@@ -57,7 +57,8 @@ Section plans(const ScenesRows& all) {
           "keeps the tolerance. All effects that are not kept are off. "
           "A plan that holds differs by ΔE2000 {} or less at {} of the points, and by {} at "
           "most.{}",
-          plain(all.tolerance.limit), percent(all.tolerance.quantile), plain(all.tolerance.max),
+          plain(all.tolerance.limit), percent_given(all.tolerance.quantile),
+          plain(all.tolerance.max),
           std::ranges::all_of(all.rows, &SceneRow::holds)
               ? ""
               : " Where no set of forms does, the nearest stands here; the findings name these."),
@@ -173,8 +174,8 @@ Section one_material(const ScenesReport& report) {
           Prose{fmt::format("On {} fresh points {} exceed ΔE2000 {}. With a confidence of {} that "
                             "is less than {} of all. The plan is `{}`.",
                             count_text(r.samples), many(r.exceeding, "point"),
-                            plain(all.tolerance.limit), percent(all.tolerance.confidence),
-                            percent(r.upper_bound), r.spec),
+                            plain(all.tolerance.limit), percent_given(all.tolerance.confidence),
+                            percent_at_most(r.upper_bound), r.spec),
                 "small verification"}}});
   }
   c.slots = {std::move(tables), slot_of(report.pictures, "front", c.controls, 320)};
@@ -196,7 +197,7 @@ Section switches(const ScenesReport& r) {
       "Where an effect switches on",
       fmt::format("One light, from beside the viewer (0°) round to the back, and every roughness. "
                   "The line is ΔE2000 {} at {} of the points: beyond it the effect is seen.",
-                  plain(r.rows.tolerance.limit), percent(r.rows.tolerance.quantile)),
+                  plain(r.rows.tolerance.limit), percent_given(r.rows.tolerance.quantile)),
       {all},
       "switches"};
 }

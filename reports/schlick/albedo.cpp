@@ -2,6 +2,7 @@
 // term.
 #include <algorithm>
 #include <array>
+#include <cmath>
 
 #include "brdf/catalogue/registry.h"
 #include "image/display.h"
@@ -17,7 +18,14 @@ namespace {
 constexpr Goal goal{1e-6, 400'000};
 constexpr double rough_iors[] = {1.1, 1.33, 1.5, 2, 3};
 
-/// Albedo at each mu of GGX under Smith masking, correlated.
+/// Place of a cosine among colour_mus().
+std::size_t place_of(double mu) {
+  const auto all = colour_mus();
+  return static_cast<std::size_t>(
+      std::ranges::min_element(all, {}, [&](double x) { return std::abs(x - mu); }) - all.begin());
+}
+
+/// Albedo at each of colour_mus() of GGX under Smith masking, correlated.
 std::vector<Albedo> albedo(std::string_view term,
                            std::vector<Setting> settings,
                            double roughness,
@@ -25,7 +33,7 @@ std::vector<Albedo> albedo(std::string_view term,
   settings.push_back({"alpha", {roughness * roughness}});
   return directional_albedo(bind_model(fmt::format("ggx/smith_ggx.correlated/{}", short_id(term)),
                                        std::move(settings), channels),
-                            albedo_mus, 0, goal);
+                            colour_mus(), 0, goal);
 }
 
 /// Exact albedo [mu], by channel: of a metal that of every wavelength, seen as linear RGB.
@@ -56,8 +64,9 @@ void add_surface(RoughFresnel& to, const FresnelSurface& s) {
     for (const double r : to.roughness)
       with.push_back(albedo(catalogue()[f.term].about->id, f.settings, r, channels));
     for (std::size_t c = 0; c < channels; ++c)
-      for (std::size_t m = 0; m < albedo_mus.size(); ++m) {
-        FresnelAlbedo a{f.name, s.material, s.channel(c), albedo_mus[m], {}, {}, 0};
+      for (const double mu : albedo_mus) {
+        const std::size_t m = place_of(mu);
+        FresnelAlbedo a{f.name, s.material, s.channel(c), mu, {}, {}, 0};
         for (std::size_t r = 0; r < with.size(); ++r) {
           a.albedo.push_back(with[r][m].value[c]);
           a.exact.push_back(exact[r][m].value[c]);
@@ -65,8 +74,9 @@ void add_surface(RoughFresnel& to, const FresnelSurface& s) {
         }
         to.albedos.push_back(std::move(a));
       }
-    for (std::size_t m = 0; m < albedo_mus.size(); ++m) {
-      FresnelColour colour{f.name, s.material, albedo_mus[m], {}};
+    const auto mus = colour_mus();
+    for (std::size_t m = 0; m < mus.size(); ++m) {
+      FresnelColour colour{f.name, s.material, mus[m], {}};
       for (std::size_t r = 0; r < with.size(); ++r)
         colour.delta_e.push_back(
             delta_e_2000(lab_of_albedo(with[r][m].value), lab_of_albedo(exact[r][m].value)));
@@ -76,6 +86,13 @@ void add_surface(RoughFresnel& to, const FresnelSurface& s) {
 }
 
 }  // namespace
+
+std::vector<double> colour_mus() {
+  constexpr int first = 2, last = 20;
+  std::vector<double> all;
+  for (int i = first; i <= last; ++i) all.push_back(i / 20.0);
+  return all;
+}
 
 RoughFresnel rough_rows(const SchlickOptions& o, const std::function<void(double)>& done) {
   RoughFresnel out{o.roughness, {}, {}};

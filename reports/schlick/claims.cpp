@@ -18,7 +18,7 @@ namespace {
 constexpr Goal shown_goal{1e-5, 200'000};  ///< of what is seen
 constexpr std::string_view shipped_masking = "ue_joint";
 
-/// Colour of GGX under a masking and the exact Fresnel term, at each mu.
+/// Colour of GGX under a masking and the exact Fresnel term, at each of colour_mus().
 std::vector<Lab> colours(std::string_view masking, const FresnelSurface& s, double roughness) {
   std::vector<Setting> settings{{"alpha", {roughness * roughness}}, {"eta", {}}};
   for (const auto& i : s.index) settings[1].values.push_back(i.n);
@@ -31,7 +31,7 @@ std::vector<Lab> colours(std::string_view masking, const FresnelSurface& s, doub
       bind_model(model_of_lobe("ggx", masking, s.kind == "metal" ? "conductor" : "dielectric"),
                  std::move(settings), s.channels());
   std::vector<Lab> out;
-  for (const auto& a : directional_albedo(model, albedo_mus, 0, shown_goal))
+  for (const auto& a : directional_albedo(model, colour_mus(), 0, shown_goal))
     out.push_back(lab_of_albedo(a.value));
   return out;
 }
@@ -62,13 +62,13 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
       "Schlick's error is significantly less than that of other factors",
       "Burley 2012, Physically-Based Shading at Disney",
       verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
-      fmt::format("glass ΔE2000 {:.2g} against {:.2g} of masking", shown_by_schlick(r, "IOR 1.5"),
-                  glass->delta_e),
+      fmt::format("glass ΔE2000 {} against {} of masking",
+                  rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
       fmt::format("Unreal's joint masking's error is over twice Schlick's for {} dielectrics. "
-                  "Among metals it is for {}. For {} Schlick shows ΔE2000 {:.2g}, that masking "
-                  "{:.2g}.",
+                  "Among metals it is for {}. For {} Schlick shows up to ΔE2000 {}, that "
+                  "masking up to {}.",
                   of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
-                  shown_by_schlick(r, worst->material), worst->delta_e));
+                  rounded_up(shown_by_schlick(r, worst->material)), rounded_up(worst->delta_e)));
 }
 
 void means_metal(Findings& to) {
@@ -112,7 +112,7 @@ std::vector<MaskingColour> masked_rows(const SchlickOptions& o,
     for (const double r : o.roughness) {
       const auto exact = colours("smith_ggx.correlated", s, r),
                  with = colours(shipped_masking, s, r);
-      for (std::size_t m = 0; m < albedo_mus.size(); ++m)
+      for (std::size_t m = 0; m < exact.size(); ++m)
         most = std::max(most, delta_e_2000(with[m], exact[m]));
     }
     out.push_back({s.material, s.kind, most});

@@ -220,6 +220,9 @@ void add_rough(Pictures& p, const SchlickRows& r) {
 
 void add_colours(Pictures& p, const SchlickRows& r) {
   std::vector<FresnelColour> colours = r.rough.colours;
+  std::erase_if(colours, [](const FresnelColour& c) {
+    return std::ranges::find(albedo_mus, c.mu) == albedo_mus.end();
+  });
   const auto key = [](const auto& c) { return std::tie(c.material, c.mu); };
   std::ranges::stable_sort(colours, {}, key);
   each_run(

@@ -62,12 +62,13 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
   const auto within = [](const FresnelRow& x) { return x.max_abs < 0.01; };
   const std::size_t some = how_many(outside, within) + how_many(metals, within),
                     all = outside.size() + metals.size();
-  to.judge(
-      "Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
-      fmt::format("glass: up to {:.2g} of full light, {} of F", g->max_abs, percent(g->max_rel, 2)),
-      fmt::format("for glass (IOR 1.5) Schlick's F is off by up to {:.2g}, near grazing. At "
-                  "all angles {}{} dielectrics and channels of metals stay within 0.01.",
-                  g->max_abs, 2 * some < all && some > 0 ? "only " : "", of_all(some, all)));
+  to.judge("Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
+           fmt::format("glass: up to {} of full light, {} of F", rounded_up(g->max_abs),
+                       percent_at_most(g->max_rel)),
+           fmt::format("for glass (IOR 1.5) Schlick's F is off by up to {}, near grazing. At "
+                       "all angles {}{} dielectrics and channels of metals stay within 0.01.",
+                       rounded_up(g->max_abs), 2 * some < all && some > 0 ? "only " : "",
+                       of_all(some, all)));
 }
 
 void only_near_one(Findings& to, const SchlickRows& r) {
@@ -78,15 +79,15 @@ void only_near_one(Findings& to, const SchlickRows& r) {
   constexpr double poor = 0.05;
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
-  to.judge("Schlick is accurate enough; near a relative IOR of 1 its error is larger",
-           "Disney, SIGGRAPH 2015", verdict(only, near),
-           fmt::format("up to {:.2g} at IOR {:g}, {:.2g} for {}", low.max_abs, index(low),
-                       metal->max_abs, metal->material),
-           fmt::format(
-               "it is off by up to {:.2g} at IOR {:g}. From IOR {:g} on its error grows again, to "
-               "{:.2g} at IOR {:g}. For {} it is {:.2g}.",
-               low.max_abs, index(low), index(*best), high.max_abs, index(high), metal->material,
-               metal->max_abs));
+  to.judge(
+      "Schlick is accurate enough; near a relative IOR of 1 its error is larger",
+      "Disney, SIGGRAPH 2015", verdict(only, near),
+      fmt::format("up to {} at IOR {:g}, {} for {}", rounded_up(low.max_abs), index(low),
+                  rounded_up(metal->max_abs), metal->material),
+      fmt::format("it is off by up to {} at IOR {:g}. From IOR {:g} on its error grows again, to "
+                  "{} at IOR {:g}. For {} it is up to {}.",
+                  rounded_up(low.max_abs), index(low), index(*best), rounded_up(high.max_abs),
+                  index(high), metal->material, rounded_up(metal->max_abs)));
 }
 
 void from_inside(Findings& to, const SchlickRows& r) {
@@ -94,9 +95,9 @@ void from_inside(Findings& to, const SchlickRows& r) {
              *there = glass(by_index(r, "dielectric_inside", outer));
   if (!inside || !there) return;
   to.say(fmt::format(
-      "Inside glass (IOR 1.5) Schlick is off by up to {:.2g}, where total reflection begins; asked "
-      "at the angle outside, by {:.2g}.",
-      inside->max_abs, there->max_abs));
+      "Inside glass (IOR 1.5) Schlick is off by up to {}, where total reflection begins; asked "
+      "at the angle outside, by up to {}.",
+      rounded_up(inside->max_abs), rounded_up(there->max_abs)));
 }
 
 /// The form for metals with the least RMS of the median channel, beside Schlick.
@@ -144,10 +145,10 @@ void variants(Findings& to, const SchlickRows& r) {
       differs == a.size()
           ? "Unreal's form of Schlick is Schlick's at every index."
           : fmt::format("Unreal's form of Schlick loses grazing reflection up to IOR {:g}. It is "
-                        "off most at IOR {:g}, by {:.2g}.",
-                        index(*a[differs]), index(*worst(b)), worst(b)->max_abs));
-  to.say(fmt::format("The spherical Gaussian adds at most {:.1g} to Schlick's greatest error.",
-                     apart));
+                        "off most at IOR {:g}, by up to {}.",
+                        index(*a[differs]), index(*worst(b)), rounded_up(worst(b)->max_abs)));
+  to.say(fmt::format("The spherical Gaussian adds at most {} to Schlick's greatest error.",
+                     rounded_up(apart, 1)));
 }
 
 /// Where a view is.
@@ -183,19 +184,20 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
              of_metal = most_seen(r, form_id::schlick, true);
   if (of_glass.delta_e == 0 || of_metal.delta_e == 0) return;
   to.headline = fmt::format(
-      "Schlick in place of exact Fresnel changes rough glass (IOR 1.5) by up to ΔE2000 {:.2g}, "
-      "{}; of metals {} most, by {:.2g}.",
-      of_glass.delta_e, seen_at(of_glass.mu), of_metal.material, of_metal.delta_e);
+      "Schlick in place of exact Fresnel changes rough glass (IOR 1.5) by up to ΔE2000 {}, "
+      "{}; of metals {} most, by up to {}.",
+      rounded_up(of_glass.delta_e), seen_at(of_glass.mu), of_metal.material,
+      rounded_up(of_metal.delta_e));
   to.say(to.headline);
   for (const auto& [form, words] :
        {std::pair<std::string_view, std::string_view>{"fresnel.f82", "F82"},
-        {"fresnel.conductor, three wavelengths", "The exact equation at three wavelengths"}})
+        {"fresnel.conductor, three wavelengths", "the exact equation at three wavelengths"}})
     if (const auto other = most_seen(r, form, true); other.delta_e > 0)
       to.say(
-          fmt::format("{} changes the colour of rough {} most, by up to ΔE2000 {:.2g}, where "
-                      "Schlick with the colour as F0 changes it by {:.2g}.",
-                      words, other.material, other.delta_e,
-                      most_seen(r, form_id::schlick, true, other.material).delta_e));
+          fmt::format("Among metals {} changes the colour of rough {} most, by up to ΔE2000 {}. "
+                      "Schlick with the colour as F0 changes it by up to {}.",
+                      words, other.material, rounded_up(other.delta_e),
+                      rounded_up(most_seen(r, form_id::schlick, true, other.material).delta_e)));
   for (const auto& c : r.rough.colours)
     if (c.form == form_id::schlick && c.mu == 1 && !c.material.starts_with("IOR ") &&
         !c.delta_e.empty())
@@ -210,8 +212,10 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
     if (a.form == form_id::schlick && a.material == "IOR 1.5")
       for (std::size_t i = 0; i < a.albedo.size(); ++i)
         most = std::max(most, std::abs(a.albedo[i] / a.exact[i] - 1));
-  to.say(fmt::format("With Schlick the albedo of rough glass (IOR 1.5) is off by up to {}.",
-                     percent(most, 2)));
+  to.say(fmt::format(
+      "With Schlick the albedo of rough glass (IOR 1.5) is off by up to {} at the three cosines "
+      "that are shown.",
+      percent_at_most(most)));
 }
 
 void three_wavelengths(Findings& to, const SchlickRows& r) {
@@ -234,9 +238,9 @@ void three_wavelengths(Findings& to, const SchlickRows& r) {
   }
   if (most == 0) return;
   to.say(
-      fmt::format("The exact equation at three wavelengths is off by up to {:.2g} from the "
+      fmt::format("The exact equation at three wavelengths is off by up to {} from the "
                   "metal's colour; for {} metals Schlick with that colour is nearer.",
-                  most, of_all(dearer, metals.size())));
+                  rounded_up(most), of_all(dearer, metals.size())));
 }
 
 /// F0 of what lies in the tables of refractive indices: at 550 nm, and of metals the colour's channels.
@@ -248,7 +252,7 @@ void ranges_of_f0(Findings& to) {
     const auto [least, most] = std::ranges::minmax_element(all);
     to.judge(claim, "", verdict(2 * within > all.size()),
              fmt::format("{} {}", of_all(within, all.size()), what),
-             fmt::format("{} of the {} measured here lie there. They go from {:.2g} to {:.2g}.",
+             fmt::format("{} of the {} measured here lie there. They go from {:.2g} to {:.3g}.",
                          percent(static_cast<double>(within) / static_cast<double>(all.size()), 2),
                          what, *least, *most));
   };
@@ -256,7 +260,7 @@ void ranges_of_f0(Findings& to) {
   for (const auto& m : dielectrics()) of_dielectrics.push_back(f0_of_index(m.at(550)));
   for (const auto& m : metals())
     for (const double f0 : reflectance_rgb(m, 1))
-      of_metals.push_back(std::min(f0, 1.0));  // beyond the gamut, as it is shipped
+      of_metals.push_back(f0);  // above 1 where the colour lies beyond sRGB
   judge("most non-metals have F0 0.02 to 0.04", "dielectrics", 0.02, 0.04, of_dielectrics);
   judge("most metals have F0 0.7 to 1.0", "channels of metals", 0.7, 1, of_metals);
 }

@@ -39,8 +39,10 @@ struct FresnelCurves {
   std::vector<FresnelCurve> curves;
 };
 
-/// Cosines of the view at which albedos are looked at.
+/// Cosines of the view at which albedos and colours are shown.
 inline constexpr std::array albedo_mus{0.1, 0.5, 1.0};
+/// Cosines of the view over which the greatest ΔE2000 is sought: 0.1 to 1 by 0.05.
+std::vector<double> colour_mus();
 
 /// Albedo of GGX under Smith masking, correlated, with a form as F, by roughness.
 struct FresnelAlbedo {
@@ -49,7 +51,7 @@ struct FresnelAlbedo {
   std::vector<double> albedo, exact;
   double bound;  ///< of all of them
 };
-/// Colours of those albedos under D65 against the exact ones', by roughness.
+/// Colours of albedos at colour_mus() under D65 against the exact ones', by roughness.
 struct FresnelColour {
   std::string form, material;
   double mu;

@@ -22,7 +22,7 @@ std::string by_clamp(const StabilityRows& r) {
   });
   if (at == r.clamps.end() || !at->changed_to) return {};
   return fmt::format(" Its clamp changes values by up to {}, and by over 1\u00a0% up to {} {:.2g}.",
-                     percent(at->changed_most, 2), at->by, *at->changed_to);
+                     percent_at_most(at->changed_most), at->by, *at->changed_to);
 }
 
 }  // namespace
@@ -38,7 +38,7 @@ void judge_f_and_g_in_half(Findings& to, const StabilityRows& r) {
     if (x.is_absolute && x.nonfinite + x.overflow == 0)
       return fmt::format("is off by {} {:g}", x.lost == 0 ? "at most" : "more than", x.tolerance);
     return x.nonfinite + x.overflow > 0 ? std::string("has inputs without a value")
-                                        : "is off by up to " + percent(x.worst_rel, 2);
+                                        : "is off by up to " + percent_at_most(x.worst_rel);
   };
   to.judge(
       "F and G can be computed in half", "",

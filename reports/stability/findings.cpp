@@ -46,7 +46,7 @@ std::string_view evidence_text(const StabilityRow& r) {
 }
 /// "errors up to 3.6 %", "values up to 3900 times too large"
 std::string worst_text(double relative) {
-  if (relative <= 1) return fmt::format("errors up to {}", percent(relative, 2));
+  if (relative <= 1) return fmt::format("errors up to {}", percent_at_most(relative));
   if (relative > 1e6) return "values more than a million times too large";
   const double unit = std::pow(10, std::floor(std::log10(relative)) - 1);
   return fmt::format("values up to {:g} times too large", std::round((1 + relative) / unit) * unit);
@@ -72,10 +72,12 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   for (const auto& h : r.highlights)
     if (h.number == "half" && h.safe_from && h.finite_from && cross->safe_from) {
       to.say(fmt::format(
-          "The whole highlight on metal, D V F and then NoL, keeps {} in half from alpha {} on, "
-          "for light and view up to {:.0f}°, as far as a search found.",
-          percent(h.tolerance, 1), rounded_up(*h.safe_from), h.zenith_deg));
-      to.say(fmt::format("Below alpha {:.2g} the product is too large for half.", *h.finite_from));
+          "The whole highlight on metal (F0 from {:g}), D V F and then NoL, keeps {} in half from "
+          "alpha {} on, as far as a search found.",
+          h.least_f0, percent(h.tolerance, 2), rounded_up(*h.safe_from)));
+      to.say(fmt::format("That is for light and view up to {:.0f}°.", h.zenith_deg));
+      to.say(fmt::format("Below alpha {} the product is too large for half.",
+                         rounded_down(*h.finite_from)));
     }
   struct Named {
     std::string_view name, id, form;
@@ -152,9 +154,10 @@ void any_gpu(Findings& to, const StabilityRows& r) {
       return row ? row->proved_rel : std::nullopt;
     };
     const auto cross = bound("cross"), cosine = bound("cosine");
-    if (cross) text += fmt::format(" GGX from |n × h|² errs by {} at most", percent(*cross, 2));
+    if (cross)
+      text += fmt::format(" GGX from |n × h|² errs by {} at most", percent_at_most(*cross));
     if (cross && cosine)
-      text += fmt::format("; only from NoH, {} is all that is proved.", percent(*cosine, 2));
+      text += fmt::format("; only from NoH, {} is all that is proved.", percent_at_most(*cosine));
     else if (cross)
       text += "; only from NoH, nothing is proved.";
     to.say(std::move(text));

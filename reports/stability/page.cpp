@@ -81,15 +81,16 @@ inline constexpr auto description<ClampRow> = FieldList{
 static_assert(describes_every_member<ClampRow>());
 
 template <>
-inline constexpr auto description<HighlightRow> =
-    FieldList{Field{"id", &HighlightRow::id, "spec of the model"},
-              Field{"number", &HighlightRow::number, ""},
-              Field{"zenith_deg", "°", &HighlightRow::zenith_deg, "most of light and view"},
-              Field{"tolerance", &HighlightRow::tolerance, "relative"},
-              Field{"safe_from", &HighlightRow::safe_from,
-                    "alpha from which a search finds nothing that breaks it; null: nowhere"},
-              Field{"finite_from", &HighlightRow::finite_from,
-                    "alpha from which a search finds a value for every input; null: nowhere"}};
+inline constexpr auto description<HighlightRow> = FieldList{
+    Field{"id", &HighlightRow::id, "spec of the model"},
+    Field{"number", &HighlightRow::number, ""},
+    Field{"zenith_deg", "°", &HighlightRow::zenith_deg, "most of light and view"},
+    Field{"least_f0", &HighlightRow::least_f0, "F0 is from there to 1"},
+    Field{"tolerance", &HighlightRow::tolerance, "relative; a tenth more than the search asks for"},
+    Field{"safe_from", &HighlightRow::safe_from,
+          "alpha from which a search finds nothing that breaks it; null: nowhere"},
+    Field{"finite_from", &HighlightRow::finite_from,
+          "alpha from which a search finds a value for every input; null: nowhere"}};
 static_assert(describes_every_member<HighlightRow>());
 
 template <>

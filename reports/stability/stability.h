@@ -98,7 +98,8 @@ struct OrderRow {
 struct HighlightRow {
   std::string id, number;
   double zenith_deg;
-  double tolerance;                   ///< relative
+  double least_f0;                    ///< of a metal: F0 from there to 1
+  double tolerance;                   ///< relative, a tenth more than the search asks for
   std::optional<double> safe_from;    ///< alpha from which a search finds none that breaks it
   std::optional<double> finite_from;  ///< alpha from which it finds a value for every input
 };

@@ -25,7 +25,7 @@ B schlick_weight(const B& c) {
   return square(square(m)) * m;
 }
 
-/// f0 + (1 − f0) w, Schlick's approximation of the weight w
+/// f0 (1 − w) + w, Schlick's approximation of the weight w: f0 + (1 − f0) w keeps less in few bits
 template <Real T>
 T schlick(const T& f0, const plain_t<T>& w) {
   return f0 * (1 - w) + w;
@@ -61,7 +61,7 @@ template <Real T>
 struct Schlick {
   static constexpr About about{"fresnel.schlick",
                                "Schlick's approximation",
-                               "F = f0 + (1 − f0)(1 − VoH)⁵",
+                               "F = f0 (1 − w) + w, w = (1 − VoH)⁵",
                                "Schlick 1994, Eq. 15",
                                "glTF 2.0, Disney's principled BRDF, LearnOpenGL",
                                "fresnel.dielectric"};
@@ -83,7 +83,7 @@ template <Real T>
 struct SchlickF90 {
   static constexpr About about{"fresnel.schlick.f90",
                                "Schlick's approximation with F90",
-                               "F = f0 + (f90 − f0)(1 − VoH)⁵",
+                               "F = f0 (1 − w) + f90 w, w = (1 − VoH)⁵",
                                "Lagarde, de Rousiers 2014, course notes on Frostbite, section 3.1",
                                "Frostbite, Filament, glTF 2.0 (KHR_materials_specular)",
                                "fresnel.dielectric"};
@@ -139,7 +139,7 @@ template <Real T>
 struct SchlickWeighted : WeightedLayer<Schlick, T> {
   static constexpr About about{"fresnel.schlick.weighted",
                                "Schlick's approximation, of a partial layer",
-                               "F = weight (f0 + (1 − f0)(1 − VoH)⁵)",
+                               "F = weight (f0 (1 − w) + w), w = (1 − VoH)⁵",
                                "Burley 2012, Appendix B",
                                "Disney's principled BRDF, its coat",
                                "fresnel.schlick"};
@@ -155,7 +155,7 @@ template <Real T>
 struct SchlickF90Weighted : WeightedLayer<SchlickF90, T> {
   static constexpr About about{"fresnel.schlick.f90.weighted",
                                "Schlick's approximation with F90, of a partial layer",
-                               "F = weight (f0 + (f90 − f0)(1 − VoH)⁵)",
+                               "F = weight (f0 (1 − w) + f90 w), w = (1 − VoH)⁵",
                                "fresnel.schlick.f90; the weight as of fresnel.schlick.weighted",
                                "",
                                "fresnel.schlick.f90"};
@@ -197,12 +197,13 @@ struct ConductorWeighted : WeightedLayer<Conductor, T> {
 /// Shares both with diffuse.lambert.metallic: a fit's colours stay within what the workflow can say.
 template <Real T>
 struct SchlickMetallic : Schlick<T> {
-  static constexpr About about{"fresnel.schlick.metallic",
-                               "Schlick's approximation, F0 by the metallic workflow",
-                               "F = f0 + (1 − f0)(1 − VoH)⁵, f0 = lerp(0.04, base_color, metallic)",
-                               "glTF 2.0, Appendix B",
-                               "glTF 2.0",
-                               "fresnel.schlick"};
+  static constexpr About about{
+      "fresnel.schlick.metallic",
+      "Schlick's approximation, F0 by the metallic workflow",
+      "F = f0 (1 − w) + w, w = (1 − VoH)⁵, f0 = lerp(0.04, base_color, metallic)",
+      "glTF 2.0, Appendix B",
+      "glTF 2.0",
+      "fresnel.schlick"};
   static constexpr std::array parameters = F0Metallic<T>::parameters;
 
   explicit SchlickMetallic(std::span<const T, 2> p)
@@ -220,7 +221,7 @@ struct SchlickReflectance : Schlick<T> {
   static constexpr About about{
       "fresnel.schlick.reflectance",
       "Schlick's approximation, F0 by Filament's parameters",
-      "F = f0 + (1 − f0)(1 − VoH)⁵, f0 = lerp(0.16 reflectance², base_color, metallic)",
+      "F = f0 (1 − w) + w, w = (1 − VoH)⁵, f0 = lerp(0.16 reflectance², base_color, metallic)",
       "Guy, Agopian, Physically Based Rendering in Filament, section 4",
       "Filament",
       "fresnel.schlick"};
@@ -275,7 +276,7 @@ template <Real T>
 struct SchlickSphericalGaussian {
   static constexpr About about{"fresnel.schlick.spherical_gaussian",
                                "Schlick's approximation, its power a spherical Gaussian",
-                               "F = f0 + (1 − f0) 2^((−5.55473 VoH − 6.98316) VoH)",
+                               "F = f0 (1 − w) + w, w = 2^((−5.55473 VoH − 6.98316) VoH)",
                                "Lagarde 2012; Karis 2013, Real Shading in Unreal Engine 4",
                                "Unreal Engine 4 (2013), three.js",
                                "fresnel.schlick"};
@@ -301,7 +302,7 @@ template <Real T>
 struct LinearAsWritten {
   static constexpr About about{"fresnel.linear.as_written",
                                "Schlick's approximation, its power missing",
-                               "F = f0 + (1 − f0)(1 − VoH)",
+                               "F = f0 VoH + (1 − VoH)",
                                "as printed in notes in circulation",
                                "",
                                "",

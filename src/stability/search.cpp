@@ -381,6 +381,10 @@ Found from_one_seed(
 
 }  // namespace
 
+double least_asked(Number number) {
+  return number == Number::half || number == Number::mixed ? 0x1p-14 : std::ldexp(1, black);
+}
+
 double usual_tolerance(Number number) {
   switch (number) {
     case Number::half:

@@ -15,6 +15,9 @@ namespace gonio::stability {
 
 /// Relative error that people can live with: 2 % in half and mixed, 1e-4 in float, 1e-10 in double.
 double usual_tolerance(Number);
+/// Least number that a relative error is asked of: of what is smaller it is a share of this.  2⁻¹⁴ in half and mixed, 2⁻⁶⁴ in float
+/// and double.
+double least_asked(Number);
 
 struct SearchOptions {
   Tolerance tolerance = 0;  ///< as Looked::lost has it; none of both: the usual one

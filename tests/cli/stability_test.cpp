@@ -4,6 +4,16 @@
 namespace gonio::test {
 namespace {
 
+/// What is smaller than the least number that is asked for errs by a share of that.
+TEST(StabilityCommand, SaysByHowMuchASmallValueErrs) {
+  const Folder f;
+  const auto out =
+      gonio(f, "stability ndf.ggx --domain alpha=0.003,0.0031 --require relative=0.02").out;
+  EXPECT_NE(out.find("of 6.1e-05, the least that is asked for"), out.npos) << out;
+  EXPECT_NE(out.find(", where values are normal numbers"), out.npos) << out;
+  EXPECT_EQ(out.find("nowhere: relative=0.02 from there on"), out.npos) << out;
+}
+
 TEST(StabilityCommand, AnswersForOnesOwnDomain) {
   const Folder f;
   const auto o =

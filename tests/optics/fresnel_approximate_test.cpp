@@ -20,6 +20,11 @@ double f(double c, std::same_as<double> auto... p) {
   return reflectance<Term>(c, p...);
 }
 
+TEST(SchlicksForm, IsPrintedAsItIsComputed) {
+  EXPECT_EQ(Schlick<double>::about.formula, "F = f0 (1 − w) + w, w = (1 − VoH)⁵")
+      << "f0 + (1 − f0) w keeps less in half";
+}
+
 TEST(ConstantReflectance, IsTheSameAtEveryAngle) {
   for (const double c : from_grazing) EXPECT_EQ(f<ConstantReflectance>(c, 0.3), 0.3);
 }

@@ -64,6 +64,16 @@ inline constexpr auto description<scene::Budget> = FieldList{
     Field{"fits", &scene::Budget::fits, "false: even the cheapest forms take longer"}};
 
 template <>
+struct Description<scene::FreshError> {
+  static constexpr auto fields() {
+    using F = scene::FreshError;
+    return FieldList{field("worst", &F::worst, "greatest difference", amounts),
+                     field("exceeding_bound", if_there(&F::exceeding_bound),
+                           "upper bound of the share beyond the limit", shares)};
+  }
+};
+
+template <>
 struct Description<scene::Candidate> {
   static constexpr auto fields() {
     using C = scene::Candidate;
@@ -77,7 +87,30 @@ struct Description<scene::Candidate> {
               amounts),
         field("error_upper", if_there(at(&C::error, &Judgement::upper)),
               "its upper confidence bound", amounts),
-        field("worst", at(&C::error, &Judgement::worst), "greatest difference", amounts)};
+        field("worst", at(&C::error, &Judgement::worst), "greatest difference", amounts),
+        field("samples", at(&C::error, &Judgement::samples),
+              "points that sets are compared on, which these errors are of", or_default),
+        field("failed", if_there(&C::failed),
+              "errors on the fresh points, where a set that keeps the tolerance here does not")};
+  }
+};
+
+template <>
+struct Description<scene::FailedSet> {
+  static constexpr auto fields() {
+    using S = scene::FailedSet;
+    using scene::Judgement;
+    return FieldList{field("forms", &S::forms, "by effect"),
+                     field("ns", &S::ns, "of f of one direction of light", Numbers{}),
+                     field("ops", &S::ops, "operations of the same", amounts),
+                     field("worst", at(&S::error, &Judgement::worst),
+                           "greatest difference on the fresh points", amounts),
+                     field("most_worst", &S::most_worst,
+                           "what that may be, for a verification to agree", amounts),
+                     field("exceeding_bound", if_there(at(&S::error, &Judgement::bound)),
+                           "upper bound of the share beyond the limit", shares),
+                     field("most_exceeding", &S::most_exceeding,
+                           "what that may be, for a verification to agree", shares)};
   }
 };
 
@@ -146,6 +179,11 @@ struct Description<scene::MaterialPlan> {
               "upper bound of the share beyond the limit", shares),
         field("samples", checked(&Judgement::samples), "fresh points"),
         field("passed_over", &M::passed_over, "cheaper sets that failed on the fresh points",
+              or_default),
+        field("failed", if_there(&M::failed), "the cheapest of these, and what it failed by"),
+        field("only_unseen", &M::only_unseen,
+              "no set keeps the tolerance both where sets are compared and on fresh points: only "
+              "what changes no point by a hundredth of the limit is dropped",
               or_default),
         field("coverage", &M::coverage, "share of the picture that shows the material", shares,
               or_default),

@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "base/error.h"
+#include "base/rounded.h"
 #include "scene/plan/bounds.h"
 #include "scene/plan/budget.h"
 #include "scene/plan/combinations.h"
@@ -31,6 +32,8 @@ constexpr double least_spread = 0.03;
 constexpr double reserve = 0.9;
 /// Part of the limit that a proved bound may take without being measured.
 constexpr double proved_share = 0.1;
+/// Part of the limit that nobody sees: what changes every point by less changes nothing.
+constexpr double unseen_share = 0.01;
 
 /// Key of a set by what it computes: what is not there has no form.
 using Key = std::tuple<std::string, Form, bool, bool, bool>;
@@ -180,8 +183,11 @@ class MaterialPlanner {
         const bool rounds_unseen =
             e == Effect::precision &&
             planned.error_if_dropped <= proved_share * scene_.tolerance.limit;
-        for (const auto form : offer.forms)
-          if (may_be(form) && (left.empty() || !rounds_unseen)) left.push_back(form);
+        if (rounds_unseen)
+          left = {offer.forms.front()};
+        else
+          for (const auto form : offer.forms)
+            if (may_be(form)) left.push_back(form);
       }
       effects_.push_back(planned);
     }
@@ -278,9 +284,7 @@ class MaterialPlanner {
   }
 
   double cost(const Candidate& c) const { return options_.cost == Cost::time ? c.ns : c.ops; }
-  double spread(const Candidate& c) const {
-    return options_.cost == Cost::time ? std::max(c.ns_spread, least_spread * c.ns) : 0;
-  }
+  double spread(const Candidate& c) const { return options_.cost == Cost::time ? c.spread() : 0; }
 
   /// Those that keep the tolerance, best first: the cheapest, and before it those as cheap that keep fewer effects.
   std::vector<const Candidate*> in_order() const {
@@ -311,11 +315,18 @@ class MaterialPlanner {
     auto d = fresh_under_sky_->bounds_of(scene_, s);
     return judge(d, scene_.tolerance);
   }
-  bool passes(const Judgement& j) const {
+  /// A set as it was checked, with what it may err by.
+  FailedSet checked(const Candidate& c) {
     const auto& t = scene_.tolerance;
-    return j.bound <=
-               share_that_passes(t.quantile, samples_of_verification(scene_), t.confidence) &&
-           j.worst <= reserve * t.max;
+    return {c.forms,
+            c.ns,
+            c.ops,
+            checked(surfaces_[static_cast<std::size_t>(&c - candidates_.data())]),
+            share_that_passes(t.quantile, samples_of_verification(scene_), t.confidence),
+            reserve * t.max};
+  }
+  static bool passes(const FailedSet& s) {
+    return s.error.bound <= s.most_exceeding && !s.fails_at_worst();
   }
 
   /// What a surface changes: the quantile of its differences, without the reference's own error.
@@ -347,49 +358,69 @@ class MaterialPlanner {
     p.coverage = drawer_.coverage();
     p.directions = static_cast<double>(reference_.points.point.size()) /
                    static_cast<double>(reference_.points.count);
-    front(p);
     compare_shipped(p);
-    if (scene_.budget_ns) return p;
-    // The first that is likely to hold in a verification, too; else the first that holds here.
-    struct Checked {
-      const Candidate* set;
-      Judgement error;
-      std::size_t passed_over;
-    };
-    std::optional<Checked> holding;
-    std::size_t passed_over = 0;
-    for (const auto* c : in_order()) {
-      const auto error = checked(surfaces_[static_cast<std::size_t>(c - candidates_.data())]);
-      const bool sure = passes(error);
-      if (sure || (!holding && error.holds(scene_.tolerance)))
-        holding = Checked{c, error, passed_over};
+    if (!scene_.budget_ns) choose(p);
+    front(p);
+    return p;
+  }
+
+  /// The first that is likely to hold in a verification, too; else the first that holds here; else what changes nothing.
+  void choose(MaterialPlan& p) {
+    const auto order = in_order();
+    std::vector<FailedSet> all;
+    std::optional<std::size_t> holding;
+    for (const auto* c : order) {
+      all.push_back(checked(*c));
+      const bool sure = passes(all.back());
+      if (sure || (!holding && all.back().error.holds(scene_.tolerance))) holding = all.size() - 1;
       if (sure) break;
-      ++passed_over;
+    }
+    p.passed_over = holding.value_or(all.size());
+    for (std::size_t i = 0; i < p.passed_over; ++i) {
+      candidates_[static_cast<std::size_t>(order[i] - candidates_.data())].failed = {
+          all[i].error.worst, all[i].error.bound};
+      const auto cost_of = [&](const FailedSet& s) {
+        return options_.cost == Cost::time ? s.ns : s.ops;
+      };
+      if (!p.failed || cost_of(all[i]) < cost_of(*p.failed)) p.failed = all[i];
     }
     if (holding) {
+      const auto& set = all[*holding];
       p.holds = true;
-      p.checked = holding->error;
-      p.passed_over = holding->passed_over;
-      take(p, look_, holding->set->forms, holding->set->ns, holding->set->ops);
-      return p;
+      p.checked = set.error;
+      take(p, look_, set.forms, set.ns, set.ops);
+      return;
     }
-    p.passed_over = passed_over;
-    // Nearest is what changes nothing: it errs by what the reference does.
-    const auto same = look_.structural();
+    p.only_unseen = true;
+    const auto same = nearest();
     const std::array surface{look_.surface(same)};
     p.checked = checked(surface[0]);
     p.holds = p.checked.holds(scene_.tolerance);
     take(p, look_, same, times_of(surface, reference_.points)[0].ns,
          operations_of(surface[0], reference_.points));
-    return p;
+  }
+  /// Forms without what changes nothing: they err by what the reference does.
+  Forms nearest() const {
+    Forms f = look_.structural();
+    for (std::size_t i = 0; i < effect_count; ++i) {
+      const auto e = static_cast<Effect>(i);
+      const auto cheapest = look_.offer(e).forms.front();
+      if (f[e] == cheapest || (e == Effect::environment && !under_sky_)) continue;
+      const Surface dropped = with(e, cheapest);
+      const auto changes = compared_with(dropped).differences_of(scene_, dropped);
+      if (*std::ranges::max_element(changes) < unseen_share * scene_.tolerance.limit)
+        f[e] = cheapest;
+    }
+    return plain(f);
   }
   std::string reason(const PlannedEffect& e) const {
     const auto unit = scene_.tolerance.metric == Metric::relative ? "" : "ΔE2000 ";
     if (e.why == Why::proved)
-      return fmt::format("dropping it changes no point by more than {}{:.2g}, by proof", unit,
-                         e.error_if_dropped);
-    return fmt::format("dropping only this changes {:.3g} % of the points by more than {}{:.2g}",
-                       100 * (1 - scene_.tolerance.quantile), unit, e.error_if_dropped);
+      return fmt::format("dropping it changes no point by more than {}{}, by proof", unit,
+                         rounded_up(e.error_if_dropped));
+    return fmt::format("dropping only this changes {} % of the points by more than {}{}",
+                       in_percent(1 - scene_.tolerance.quantile), unit,
+                       rounded_down(e.error_if_dropped));
   }
   void front(MaterialPlan& p) const {
     std::vector<Candidate> all = candidates_;
@@ -433,6 +464,10 @@ std::string reference_in_words(std::string_view form) {
   return form == "none"          ? "single scattering"
          : form == "kulla_conty" ? "Kulla and Conty's lobe"
                                  : "walks between facets";
+}
+
+double Candidate::spread() const {
+  return std::max(ns_spread, least_spread * ns);
 }
 
 std::size_t Candidate::kept() const {
@@ -489,7 +524,11 @@ void name_all(Plan& plan, const Lit& lit) {
 void claim_no_bound(MaterialPlan& m) {
   constexpr double none = std::numeric_limits<double>::infinity();
   m.checked.upper = m.checked.bound = none;
-  for (auto& c : m.front) c.error.upper = none;
+  if (m.failed) m.failed->error.bound = none;
+  for (auto& c : m.front) {
+    c.error.upper = none;
+    if (c.failed) c.failed->exceeding_bound = none;
+  }
 }
 
 }  // namespace

@@ -34,15 +34,36 @@ struct PlannedEffect {
          ops_saved = 0;  ///< by its cheapest form, all else exact, of one direction of light
 };
 
+/// What a set that keeps the tolerance where sets are compared failed by on fresh points.
+struct FreshError {
+  double worst = 0, exceeding_bound = 1;  ///< as a Judgement has them
+};
+
 /// Set of forms that was measured.
 struct Candidate {
   Forms forms;
   double ns = 0, ns_spread = 0;  ///< of f of one direction of light
   double ops = 0;
   Judgement error;
+  std::optional<FreshError> failed = {};
 
+  /// Times that differ by less than this are taken for the same.
+  double spread() const;
   /// Number of effects that it keeps.
   std::size_t kept() const;
+};
+
+/// Set that keeps the tolerance where sets are compared, but not surely enough on fresh points.
+struct FailedSet {
+  Forms forms;
+  double ns = 0, ops = 0;  ///< of f of one direction of light
+  Judgement error;         ///< on the fresh points
+  double most_exceeding =
+      0;  ///< share beyond the limit that `error.bound` may be, for a verification to agree
+  double most_worst = 0;  ///< what `error.worst` may be, for the same
+
+  /// True where it is the worst point that fails; else it is the share beyond the limit.
+  bool fails_at_worst() const { return error.worst > most_worst; }
 };
 
 struct MaterialPlan {
@@ -65,6 +86,9 @@ struct MaterialPlan {
   Judgement checked;        ///< on fresh points
   std::size_t passed_over =
       0;  ///< cheaper sets that kept the tolerance where they were chosen, but not on fresh points
+  std::optional<FailedSet> failed = {};  ///< the cheapest of these
+  /// No set keeps the tolerance both where sets are compared and on fresh points: this drops only what changes nothing.
+  bool only_unseen = false;
   double coverage = 0;           ///< of the picture
   double directions = 0;         ///< of light that come to a point, on average
   std::vector<Candidate> front;  ///< none of the others is cheaper and errs less
@@ -120,7 +144,8 @@ std::size_t points_of_plan(const Scene&, std::size_t samples);
 ///      cancel: of at most 512 sets of any forms that shaders have, those that keep the tolerance are candidates, too
 ///   4  the cheapest that keeps the tolerance, ties within the spread of times going to fewer effects, is checked on fresh
 ///      points, strictly enough that fresh ones of a verification are likely to agree; if it fails the next is taken; if all
-///      do, the first that still holds on these points; if none does, what changes nothing
+///      do, the first that still holds on these points; if none does, only what changes no point by a hundredth of the limit
+///      is dropped
 ///
 /// Each point's difference counts with what the reference itself may be off by there.  Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
 /// the budget leaves, and what is left of it goes to those that break the tolerance; it may be broken then, which a verification shows.

@@ -19,6 +19,7 @@
 #include "reports/cost/points.h"
 #include "reports/cost/processes.h"
 #include "reports/cost/studies.h"
+#include "reports/finding/words.h"
 #include "reports/measure/load.h"
 #include "reports/pictures.h"
 #include "reports/plain.h"
@@ -482,6 +483,22 @@ TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNoMore) {
   EXPECT_EQ(said.sentences[0], said.headline) << "before it tells of other programs";
   EXPECT_NE(said.headline.find(" 0.23 ns more in cache, and no more in columns"), std::string::npos)
       << said.headline;
+}
+
+TEST(CostFindings, CompareAFrameOfComposedModelsWithComposedOnes) {
+  auto rows = small_rows();
+  for (auto& r : rows.rows) {
+    if (r.memory != "cache" || r.number != "float") continue;
+    r.each.clear();
+    r.time = {r.way == "composed" ? 0.3 : 0.2, 1e-4};
+    if (r.id == "ggx/smith_ggx.correlated/conductor") r.time.ns += r.way == "composed" ? 0.6 : 0.4;
+  }
+  rows.switches = cost_switches(rows.rows);
+  const auto ms = short_text(1e-6 * frame_samples * 0.6);
+  const auto all = findings(rows).sentences;
+  EXPECT_TRUE(std::ranges::any_of(all, [&](const std::string& x) {
+    return x.find("a metal's exact Fresnel " + ms + " ms more") != x.npos;
+  })) << ms;
 }
 
 TEST(CostFindings, JudgeExactFresnelByWhatIsMeasured) {

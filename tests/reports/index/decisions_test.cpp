@@ -138,7 +138,7 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
             "ΔE ≤ 0.7 (Schlick: ΔE 5.7 for iron)");
   EXPECT_EQ(about(all, "Fresnel of dielectrics (glass)").take, "Exact dielectric");
   const auto& bounces = about(all, "Multiple scattering under single lights");
-  EXPECT_EQ(bounces.subject, "Multiple scattering under single lights (of bright metal, F0 0.9)");
+  EXPECT_EQ(bounces.subject, "Multiple scattering under single lights, F0 0.9 (bright metal)");
   EXPECT_EQ(bounces.take, "Turquin, from roughness 0.4 on");
   EXPECT_EQ(bounces.error, "ΔE ≤ 1.9 (one bounce: 18)");
   EXPECT_EQ(bounces.unless, "F0 is 0.04: one bounce, ΔE ≤ 1.9");
@@ -177,7 +177,7 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   EXPECT_EQ(matte.cost, "+0.48 ns");
   const auto& below = about(all, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.hammon") << "the only one that makes no light";
-  EXPECT_EQ(below.error, "ΔE ≤ 3.5; gives back 100\u00a0% at most (Lambert: 191\u00a0%)");
+  EXPECT_EQ(below.error, "ΔE ≤ 3.5; gives back 100.1\u00a0% at most (Lambert: 191\u00a0%)");
   const auto& light = about(all, "Image-based light");
   EXPECT_EQ(light.take, "Split sum, 32 × 32 table in half");
   EXPECT_EQ(light.error, "RMS 0.0008 of E");

@@ -222,10 +222,11 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   d.id = "ndf.ggx", d.form = "cross", d.number = "half", d.decides = "alpha", d.tolerance = 0.02;
   d.safe_from = 0.0039;
   r.rows = {d};
-  r.highlights = {{"ggx/smith_ggx.correlated/schlick", "half", 88, 0.02, 0.0371, 0.0315}};
+  r.highlights = {{"ggx/smith_ggx.correlated/schlick", "half", 88, 0.5, 0.022, 0.0371, 0.0315}};
   const auto row = of(decisions(facts(r)), "Precision");
   EXPECT_EQ(row.take, "|n × h|², α clamped at 0.038") << "at 0.037 it is not kept";
-  EXPECT_EQ(row.error, "≤ 2\u00a0% for light and view up to 88° (search, not proof)");
+  EXPECT_EQ(row.error,
+            "≤ 2.2\u00a0% on metal up to 88°, by search (F0 from 0.5; light and view; no proof)");
   EXPECT_EQ(row.cost, "smoother surfaces render as roughness 0.2");
   r.highlights[0].safe_from.reset();
   EXPECT_EQ(of(decisions(facts(r)), "Precision").take, "float instead");

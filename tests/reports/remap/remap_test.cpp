@@ -228,7 +228,7 @@ TEST(RemapReport, WhatLacksAQuarterIsFourTimesAsMuch) {
   for (auto& v : r.vf) v.least = v.most = 1;
   EXPECT_EQ(figure(), "off by a factor of up to 4; with a ¼ by up to 1");
   for (auto& v : r.vf) v.least = 0.09, v.most = 1.8, v.factor = 3;
-  EXPECT_EQ(figure(), "off by a factor of up to 7.2; with a ¼ by up to 11") << "not the RMS factor";
+  EXPECT_EQ(figure(), "off by a factor of up to 7.2; with a ¼ by up to 12") << "not the RMS factor";
 }
 
 TEST(RemapReport, NamesOfTwoFormsOfTheSameValuesTheOneOfFewerOperations) {

@@ -142,5 +142,67 @@ TEST(PlanPage, BoundsNothingOfALobeThatNoWalkIsKnownOf) {
   EXPECT_NE(page.find("so that is no bound"), page.npos);
 }
 
+TEST(PlanPage, WritesTheQuantileWithAllItsDigits) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  p.tolerance.quantile = 0.9995;
+  const auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find("At 99.95\u00a0% of the fresh points"), page.npos);
+  EXPECT_NE(page.find("ΔE2000 at 99.95\u00a0%"), page.npos);
+  EXPECT_EQ(page.find("at 100"), page.npos);
+}
+
+TEST(PlanPage, SaysOnWhichPointsTheSetsWereCompared) {
+  GONIO_MANY_FITS();
+  const auto page = plan_page_html(plastic_scene(), plan());
+  EXPECT_NE(page.find("Their errors are of the 1\u202f024 points that sets are compared on"),
+            page.npos);
+}
+
+TEST(PlanPage, SaysWhyAFasterSetIsNotThePlan) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  p.cost = scene::Cost::time;
+  auto& m = p.materials.at(0);
+  ASSERT_GT(m.front.size(), 1U);
+  m.front.resize(2);
+  m.forms = m.front[1].forms;
+  m.front[0].error.upper = m.front[0].error.worst = 0.1;
+  m.front[0].ns = 1, m.front[0].ns_spread = 0.25, m.ns = m.front[1].ns = 1.1;
+  constexpr std::string_view faster = "A faster set keeps the tolerance, too.";
+  const auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find(faster), page.npos);
+  EXPECT_NE(page.find("± 0.25"), page.npos);
+  m.front[0].error.worst = 100;
+  EXPECT_EQ(plan_page_html(plastic_scene(), p).find(faster), std::string::npos);
+}
+
+TEST(PlanPage, NamesTheNumberByWhichACheaperSetFailed) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  auto& m = p.materials.at(0);
+  scene::Judgement error;
+  error.worst = 4.51, error.bound = 0.001;
+  m.passed_over = 26;
+  m.failed = scene::FailedSet{m.front[0].forms, 1.29, 40, error, 0.009, 3.6};
+  m.front[0].failed = {4.51, 0.001};
+  auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find("The cheapest of them, at 40 operations, differs by 4.6 at its worst point, "
+                      "where a plan may differ by 3.6."),
+            page.npos);
+  EXPECT_NE(page.find("failed, worst 4.6"), page.npos);
+  m.failed->error.worst = 2, m.failed->error.bound = 0.0121;
+  page = plan_page_html(plastic_scene(), p);
+  EXPECT_NE(page.find("may exceed the limit at 1.3 % of all points, a plan at 0.9 %."), page.npos);
+}
+
+TEST(PlanPage, SaysThatNoOtherSetWasFound) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  p.materials.at(0).only_unseen = true;
+  EXPECT_NE(plan_page_html(plastic_scene(), p).find("No other set keeps the tolerance both"),
+            std::string::npos);
+}
+
 }  // namespace
 }  // namespace gonio

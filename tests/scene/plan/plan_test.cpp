@@ -135,6 +135,39 @@ TEST(Plan, IsTheNearestWhereNoneHoldsAndSaysSo) {
   }
 }
 
+/// Diamond before a light from behind: the reference's error leaves no set on few points, and the plan itself holds on more.
+TEST(Plan, DropsWhatChangesNothingWhereNoSetIsSeenToHold) {
+  const auto diamond =
+      test::material("ggx/smith_ggx.correlated/dielectric", {"roughness=0.15", "eta=2.42"});
+  const auto p = planned(diamond, test::rim(), {.quantile = 0.999, .limit = 0.2, .max = 2});
+  ASSERT_TRUE(p.only_unseen);
+  EXPECT_FALSE(keeps(p, "precision")) << "double changes nothing, and takes time";
+  EXPECT_TRUE(keeps(p, "fresnel"));
+}
+
+TEST(Plan, NamesTheCheapestSetThatFailedOnFreshPoints) {
+  const auto plastic = test::material("disney.coupled+ggx/smith_ggx.correlated/dielectric",
+                                      {"kd=0.5,0.03,0.02", "roughness=0.25", "eta=1.49"});
+  Scene s = test::sphere(
+      plastic, {DirectionalLight{DirectionalLight::Ranging{{{10, 60}, {-60, 60}}}, {3, 3, 3}}});
+  s.view = Orbit{{0, 0, 0}, 8, {{-10, 40}, {-90, 90}}};
+  auto few = quick();
+  few.samples = 512;
+  const auto p = plan_scene(s, few).materials.at(0);
+  ASSERT_GT(p.passed_over, 0U);
+  ASSERT_TRUE(p.failed);
+  EXPECT_TRUE(p.failed->fails_at_worst() || p.failed->error.bound > p.failed->most_exceeding);
+  EXPECT_DOUBLE_EQ(p.failed->most_worst, 0.9 * 4);
+}
+
+TEST(Plan, ReasonsSayNoMoreThanWhatWasMeasured) {
+  for (const auto& e : planned(test::red_plastic(), test::rim()).effects)
+    if (e.why == Why::measured) {
+      const auto said = std::stod(e.reason.substr(e.reason.rfind(' ')));
+      EXPECT_LE(said, e.error_if_dropped) << e.reason;
+    }
+}
+
 TEST(Plan, HoldsToTheLastWhereAllIsKnown) {
   const auto p =
       planned(test::material("lambert", {"kd=0.5"}), test::front(), {.limit = 0, .max = 0});
