@@ -300,7 +300,8 @@ LackOfFit lack_of_fit(
     m.told = m.p < significant && m.size > likeliest->rounding &&
              (m.size > worth_telling || excess > of_an_interval);
   }
-  const double within = first.left > 0 ? first.left : mean_square(left);
+  // Scales that take up everything leave nothing within an angle.
+  const double within = first.left > 0 || !tests.scaled.empty() ? first.left : mean_square(left);
   if (first.p_beside_noise < surely && first.beside_noise > beside_noise &&
       first.left > worth_telling * worth_telling) {
     m.told = true;

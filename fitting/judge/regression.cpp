@@ -486,7 +486,10 @@ bool are_smooth(const Left& found, const std::vector<SharedAngle>& gains) {
          differences / pairs < squares * (2 - surely * 2 / std::sqrt(pairs + 2));
 }
 
-double common_factor(const Left& left, const std::vector<SharedAngle>& gains) {
+double common_factor(const Left& found, const std::vector<SharedAngle>& gains) {
+  std::optional<Left> settled;
+  if (found.robust) settle(settled.emplace(found), gains);
+  const Left& left = settled ? *settled : found;
   const auto factors = Projected(left, gains).factors().back();
   const std::size_t channels = left.unknowns.size(), angles = factors.size() / channels;
   double largest = 0;

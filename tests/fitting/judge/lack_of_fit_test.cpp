@@ -10,6 +10,7 @@
 
 #include "fitting/fit.h"
 #include "fitting/support.h"
+#include "geometry/half_difference.h"
 #include "many_fits.h"
 
 #include <fmt/format.h>
@@ -455,11 +456,53 @@ Table measured_in_plane(int angles, const std::function<double(double, double)>&
 }
 
 TEST(LackOfFit, OfAParameterAtItsBoundIsTold) {
-  const auto d =
-      fit_of(measured_in_plane(14, [](double, double) { return 0.6123456789; }), "lambert");
-  EXPECT_EQ(test::parameter(d, "kd").status[0], ParameterStatus::at_bound);
-  EXPECT_TRUE(d.misfit.told) << d.misfit.note;
-  EXPECT_NEAR(d.misfit.size, d.residuals.log_rms, 0.02);
+  for (const double value : {0.6123456789, 0.6})
+    for (const int angles : {4, 14}) {
+      const auto d =
+          fit_of(measured_in_plane(angles, [&](double, double) { return value; }), "lambert");
+      EXPECT_EQ(test::parameter(d, "kd").status[0], ParameterStatus::at_bound);
+      EXPECT_TRUE(d.misfit.told) << d.misfit.note;
+      EXPECT_NEAR(d.misfit.size, d.residuals.log_rms, 0.02) << value << " " << angles;
+    }
+}
+
+TEST(LackOfFit, OfScalesThatRunSmoothlyOverIncidentAnglesOrThatTwoAzimuthsHaveIsTold) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const auto told = [&](const std::function<double(double, double)>& gain) {
+    return fit_of(measured_in_plane(14,
+                                    [&](double in, double out) {
+                                      return 0.1 * std::exp(0.01 * normal(random) + gain(in, out));
+                                    }),
+                  "lambert")
+        .misfit.told;
+  };
+  EXPECT_TRUE(told([](double in, double) { return 0.06 * std::cos(in * degree * 2.5); }));
+  EXPECT_TRUE(told([](double, double out) { return out < 0 ? 0.06 : -0.06; }));
+  EXPECT_FALSE(told([](double, double out) { return out < 0 ? 0.02 : -0.02; }));
+  EXPECT_FALSE(told([&](double in, double) {  // of each angle its own
+    return 0.03 * std::sin(1e4 * in);
+  }));
+}
+
+TEST(LackOfFit, OfATablesScaleIsToldThoughAFactorOfEachAngleTakesItUp) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  const auto metal = test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.25,f0=0.08", 1);
+  const auto told = [&](double scale) {
+    return fit_of(measured_in_plane(
+                      14,
+                      [&](double in, double out) {
+                        const std::vector at{frame_angles(
+                            {direction(in * degree, 0),
+                             direction(std::abs(out) * degree, out < 0 ? 0 : std::numbers::pi)})};
+                        return scale * evaluate(metal, at)[0][0] * std::exp(0.01 * normal(random));
+                      }),
+                  "ggx/smith_ggx.correlated/schlick")
+        .misfit.told;
+  };
+  EXPECT_TRUE(told(1.5));
+  EXPECT_FALSE(told(1));
 }
 
 TEST(LackOfFit, OfScalesOfAnglesIsToldWhereNoInstrumentErrsSoMuch) {
