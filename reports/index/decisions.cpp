@@ -136,8 +136,7 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   const auto factor = [](double log_rms) { return fmt::format("×/÷ {:.3g}", std::exp(log_rms)); };
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
-       fmt::format("typical factor {} beside published fits, by which {} measured materials "
-                   "have a longer tail",
+       fmt::format("off by {} beside published fits; {} measured materials have a longer tail",
                    factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
        std::string(no_more),
        fmt::format("γ is fitted (median {:.2g}, where it is determined): GTR, {}, {}", t.gamma,
@@ -417,14 +416,14 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
              cost_text(*taken, cheap),
              ""};
   if (taken->form != cheap_id && own)
-    d.error += below_lobe ? fmt::format("; gives back {} at most (Lambert: {})",
+    d.error += below_lobe ? fmt::format("; reflects at most {} of the light (Lambert: {})",
                                         made(*form_of(taken->form)), made(*lambert))
                           : fmt::format(" ({}Lambert: ΔE {})",
                                         is_exact(*taken) ? "it is the reference; " : "",
                                         short_number(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("more light may be made: {}, {}", in_text(nearer->form),
+    d.unless = fmt::format("energy gain is acceptable: {}, {}", in_text(nearer->form),
                            delta_at_most(nearer->error));
   else if (!below_lobe && taken->form != cheap_id)
     d.unless = "the surface is smooth: Lambert";

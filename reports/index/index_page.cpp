@@ -52,7 +52,7 @@ Json picture_of(const ReportIndex::Entry& r) {
   return all.empty() ? Json() : all[0];
 }
 
-constexpr const char* fresnel_title = "What Fresnel's shortcuts show";
+constexpr const char* fresnel_title = "Visible error of Fresnel approximations";
 /// Forms of Fresnel that the grid shows.
 constexpr std::string_view shown_forms[] = {"fresnel.schlick", "fresnel.schlick.f90", "fresnel.f82",
                                             "fresnel.lazanyi, corrected"};
@@ -204,8 +204,9 @@ Part lead(const ReportIndex& i) {
                           m->cpu.empty() ? "this machine" : m->cpu, m->isa, setting_of(i))
             : fmt::format(". {} setting.", page::capital(setting_of(i)));
   if (m && m->others && *m->others >= 0.25)
-    text += fmt::format(" Meanwhile other programs kept {} of {} processors busy.",
-                        plain(*m->others, 2), m->threads);
+    text += fmt::format(
+        " The machine was busy: other programs took {} of {} processors, so times may be too long.",
+        plain(*m->others, 2), m->threads);
   if (!i.facts.fresnel.empty())
     text += fmt::format(
         " ΔE is CIEDE2000: up to {} nobody sees it, up to {} only side by side; “{}” has the "
@@ -324,7 +325,7 @@ std::string index_page_html(const ReportIndex& i) {
   out.sections.push_back(cards(i));
   out.sections.push_back(claims(i));
   out.sections.push_back(
-      {"What stands behind a figure",
+      {"How it was measured",
        "",
        {Points{
            {fmt::format("The cheapest form is taken whose error is small: up to ΔE2000 {}, or for "

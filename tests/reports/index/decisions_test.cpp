@@ -165,10 +165,8 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto all = decisions(made_facts());
   const auto& tails = about(all, "Distribution");
   EXPECT_EQ(tails.take_id, "ndf.ggx");
-  EXPECT_EQ(
-      tails.error,
-      "typical factor ×/÷ 1.5 beside published fits, by which 17 of 20 measured materials have a "
-      "longer tail");
+  EXPECT_EQ(tails.error,
+            "off by ×/÷ 1.5 beside published fits; 17 of 20 measured materials have a longer tail");
   EXPECT_EQ(tails.unless,
             "γ is fitted (median 1.4, where it is determined): GTR, ×/÷ 1.2, +0.80 ns");
   const auto& matte = about(all, "Diffuse of matte surfaces");
@@ -177,7 +175,8 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   EXPECT_EQ(matte.cost, "+0.48 ns");
   const auto& below = about(all, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.hammon") << "the only one that makes no light";
-  EXPECT_EQ(below.error, "ΔE ≤ 3.5; gives back 100.1\u00a0% at most (Lambert: 191\u00a0%)");
+  EXPECT_EQ(below.error,
+            "ΔE ≤ 3.5; reflects at most 100.1\u00a0% of the light (Lambert: 191\u00a0%)");
   const auto& light = about(all, "Image-based light");
   EXPECT_EQ(light.take, "Split sum, 32 × 32 table in half");
   EXPECT_EQ(light.error, "RMS 0.0008 of E");

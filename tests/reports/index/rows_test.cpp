@@ -185,8 +185,9 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   const auto& below = of(rows, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "Disney's is nearer, and makes more light than any";
-  EXPECT_EQ(below.error, up_to(5.2) + "; gives back 140\u00a0% at most (Lambert: 191\u00a0%)");
-  EXPECT_EQ(below.unless, "more light may be made: Disney's diffuse, ΔE ≤ 1")
+  EXPECT_EQ(below.error,
+            up_to(5.2) + "; reflects at most 140\u00a0% of the light (Lambert: 191\u00a0%)");
+  EXPECT_EQ(below.unless, "energy gain is acceptable: Disney's diffuse, ΔE ≤ 1")
       << "the nearest of them";
 }
 
@@ -206,9 +207,9 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   const auto row = of(decisions(all), "Distribution");
   EXPECT_EQ(
       row.error,
-      fmt::format("typical factor ×/÷ {:.3g} beside published fits, by which 17 of 20 measured "
-                  "materials have a longer tail",
-                  std::exp(0.395)));  // between the tenth and the eleventh
+      fmt::format(
+          "off by ×/÷ {:.3g} beside published fits; 17 of 20 measured materials have a longer tail",
+          std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(
       row.unless,
       fmt::format("γ is fitted (median 1.5, where it is determined): GTR, ×/÷ {:.3g}, +0.10 ns",
