@@ -466,7 +466,8 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
   };
   const std::string index = told.contains("index") ? told.at("index")["text"] : "";
   const auto first = index.find("|n × h|²");
-  EXPECT_LT(first, index.rfind("Visible error of Fresnel approximations")) << "decisions stand first";
+  EXPECT_LT(first, index.rfind("Visible error of Fresnel approximations"))
+      << "decisions stand first";
   EXPECT_NE(first, index.npos);
   const std::string choice = told.contains("choice") ? told.at("choice")["text"] : "";
   const auto after_contents = choice.find("\nTake ");
