@@ -102,8 +102,9 @@ class Scales {
     refine(detector, {outgoing, azimuth});
     follows_incident = is_open(incident) && are_smooth(left_, axes_up_to(incident));
     for (const auto& s : all) {
-      between_few = between_few || (number_of_angles(left_, s.of) < few_angles &&
-                                    s.square > most_between_few * most_between_few);
+      between_few =
+          between_few || (s.of != incident && number_of_angles(left_, s.of) < few_angles &&
+                          s.square > most_between_few * most_between_few);
       of_all = of_all || common_factor(left_, axes_up_to(s.of)) > most_of_a_scale;
     }
   }

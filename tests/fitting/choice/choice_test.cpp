@@ -215,7 +215,8 @@ TEST(ModelChoice, SaysFromWhichOffsetItsLogRmsCounts) {
   t.channels = {"r", "g"};
   t.values.push_back(t.values[0]);
   for (auto& plane : t.values)
-    for (std::size_t i = 0; i < t.size(); i += 10) plane[i] = i % 20 == 0 ? -1e-3 : 1e-3;
+    for (std::size_t i = 0; i < t.size(); i += 10)
+      plane[i] = (i % 20 == 0 ? -1e-6 : 1e-6) * static_cast<double>(500 + i);
   const auto choice = compare_models(t, {}, std::array{paint});
   FitOptions o;
   o.model = paint;
