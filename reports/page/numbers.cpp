@@ -50,7 +50,11 @@ std::string many(std::size_t n, std::string_view thing) {
   return fmt::format("{} {}{}", count_text(n), thing, n == 1 ? "" : "s");
 }
 std::string percent(double share, int digits) {
-  return significant(100 * share, digits) + "\u202f%";
+  std::string text = significant(100 * share, digits);
+  // Not all is never told as all.
+  constexpr int most = 9;
+  while (share < 1 && text == "100" && digits < most) text = significant(100 * share, ++digits);
+  return text + "\u202f%";
 }
 std::string signed_percent(double share) {
   return (share > 0 ? "+" : "") + percent(share);

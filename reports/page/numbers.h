@@ -16,7 +16,7 @@ std::string plain(double, int digits = 6);
 std::string count_text(std::size_t);
 /// "2 points", "1 point"
 std::string many(std::size_t, std::string_view thing);
-/// "4.2 %": of a share, and with its sign "+4.2 %".
+/// "4.2 %": of a share, and with its sign "+4.2 %".  Below 1 it is never "100 %".
 std::string percent(double share, int digits = 2);
 std::string signed_percent(double share);
 /// "3.2 ×"

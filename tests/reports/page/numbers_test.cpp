@@ -27,6 +27,8 @@ TEST(PageNumbers, ArePlainWhereTheyAreRound) {
   EXPECT_EQ(many(1, "point"), "1 point");
   EXPECT_EQ(many(0, "point"), "0 points");
   EXPECT_EQ(signed_percent(0.042), "+4.2\u202f%");
+  EXPECT_EQ(percent(0.99878), "99.9\u202f%") << "not all";
+  EXPECT_EQ(percent(1), "100\u202f%");
   EXPECT_EQ(percent(-0.0312, 3), "−3.12\u202f%");
 }
 
