@@ -457,11 +457,19 @@ Regression regress(const Left& found,
   return out;
 }
 
-bool are_smooth(const Left& found, const std::vector<SharedAngle>& gains) {
+namespace {
+
+/// Logarithms of the last axis's factors, [angle · channels + channel].
+std::vector<double> last_factors(const Left& found, const std::vector<SharedAngle>& gains) {
   std::optional<Left> settled;
   if (found.robust) settle(settled.emplace(found), gains);
-  const Left& left = settled ? *settled : found;
-  const auto factors = Projected(left, gains).factors().back();
+  return Projected(settled ? *settled : found, gains).factors().back();
+}
+
+}  // namespace
+
+bool are_smooth(const Left& left, const std::vector<SharedAngle>& gains) {
+  const auto factors = last_factors(left, gains);
   const auto& places = left.places[static_cast<std::size_t>(gains.back())];
   const std::size_t channels = left.unknowns.size();
   std::vector<std::size_t> order(places.size());
@@ -486,11 +494,8 @@ bool are_smooth(const Left& found, const std::vector<SharedAngle>& gains) {
          differences / pairs < squares * (2 - surely * 2 / std::sqrt(pairs + 2));
 }
 
-double common_factor(const Left& found, const std::vector<SharedAngle>& gains) {
-  std::optional<Left> settled;
-  if (found.robust) settle(settled.emplace(found), gains);
-  const Left& left = settled ? *settled : found;
-  const auto factors = Projected(left, gains).factors().back();
+double common_factor(const Left& left, const std::vector<SharedAngle>& gains) {
+  const auto factors = last_factors(left, gains);
   const std::size_t channels = left.unknowns.size(), angles = factors.size() / channels;
   double largest = 0;
   for (std::size_t c = 0; c < channels; ++c) {
