@@ -77,9 +77,7 @@ Exit run_map(const ExportCall& o) {
     say_below("filled    ",
               fmt::format("{} of {} texels do not know {}: {} stands there{}", f.texels,
                           e.width * e.height, f.parameter, fmt::join(values, ", "),
-                          10 * (e.width * e.height - f.texels) < e.width * e.height
-                              ? ", its default"
-                              : ", the map's median"));
+                          f.is_default ? ", its default" : ", the map's median"));
   }
   say("residual  {:.3g} % (RMS of the median texel); one texel in 20 is off by more than {:.3g} "
       "%\n",

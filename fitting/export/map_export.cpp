@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "base/base64.h"
 #include "base/error.h"
@@ -37,7 +38,8 @@ inline constexpr auto description<FilledParameter> =
               Field{"texels", &FilledParameter::texels, "that do not know it"},
               Field{"value", &FilledParameter::value,
                     "of each channel, or one: the median of the texels that know it, or its "
-                    "default if fewer than a tenth do"}};
+                    "default if fewer than a tenth do"},
+              Field{"is_default", &FilledParameter::is_default, "whether one of them is that"}};
 static_assert(describes_every_member<FilledParameter>());
 template <>
 inline constexpr auto description<MapExport> = FieldList{
@@ -69,7 +71,6 @@ namespace {
 constexpr std::size_t rows_at_once = 16, judged = 32;
 constexpr std::size_t most_texels = std::size_t{1} << 24;
 constexpr double largest_ior = 10;
-constexpr std::size_t most_looked_at = 1 << 16;  ///< texels that medians are of
 
 /// A texel's material by glTF's parameters.
 struct Texel {
@@ -183,23 +184,46 @@ void for_each_texel(const BoundModel& start, const std::string& path, Each&& eac
   }
 }
 
-/// Values that a map has where a texel does not know its own, and what they stand for.
+/// Values of texels spread over a map, [slot][texel]; NaN of what one does not know.
+std::vector<std::vector<double>> sample_of(const BoundModel& start,
+                                           const std::string& map,
+                                           std::size_t texels) {
+  constexpr std::size_t most = 1 << 16;
+  const std::size_t step = (texels + most - 1) / most;
+  std::vector<std::vector<double>> seen(start.values.size(),
+                                        std::vector<double>((texels + step - 1) / step));
+  for_each_texel(start, map, [&](std::size_t t, const BoundModel& model) {
+    if (t % step != 0) return;
+    for (std::size_t v = 0; v < seen.size(); ++v) seen[v][t / step] = model.values[v];
+  });
+  return seen;
+}
+
+/// F0 that one in 100 texels that are no metals exceeds, of those that know all.
+double strongest_highlight(const BoundModel& start, const std::vector<std::vector<double>>& seen) {
+  std::vector<double> f0;
+  BoundModel here = start;
+  for (std::size_t t = 0; !seen.empty() && t < seen[0].size(); ++t) {
+    for (std::size_t v = 0; v < seen.size(); ++v) here.values[v] = seen[v][t];
+    if (std::ranges::any_of(here.values, [](double v) { return std::isnan(v); })) continue;
+    const Texel texel = texel_of(here);
+    if (!texel.metal) f0.push_back(*std::ranges::max_element(texel.f0));
+  }
+  return f0.empty() ? f0_of(1.5) : std::min(quantile(f0, 0.99), f0_of(largest_ior));
+}
+
+/// Values of a map where a texel does not know its own, and for how many they stand.
 class MapMedians {
  public:
-  MapMedians(const BoundModel& start, const std::string& map, std::size_t texels) : start_(start) {
-    const std::size_t step = (texels + most_looked_at - 1) / most_looked_at;
-    std::vector<std::vector<double>> seen(start.values.size(),
-                                          std::vector<double>((texels + step - 1) / step));
-    for_each_texel(start, map, [&](std::size_t t, const BoundModel& model) {
-      if (t % step != 0) return;
-      for (std::size_t v = 0; v < seen.size(); ++v) seen[v][t / step] = model.values[v];
-    });
-    values_ = start.values;
+  MapMedians(const BoundModel& start, std::vector<std::vector<double>> seen)
+      : start_(start), values_(start.values), is_default_(seen.size(), true) {
     for (std::size_t v = 0; v < seen.size(); ++v) {
       constexpr std::size_t few = 10;  // in a hundred, who may know it by chance
       const std::size_t all = seen[v].size();
       std::erase_if(seen[v], [](double x) { return std::isnan(x); });
-      if (100 * seen[v].size() >= few * all) values_[v] = median(seen[v]);
+      if (100 * seen[v].size() < few * all) continue;
+      values_[v] = median(seen[v]);
+      is_default_[v] = false;
     }
     missing_ = std::vector<std::atomic<std::size_t>>(start.model.parameters.size());
   }
@@ -221,10 +245,13 @@ class MapMedians {
   std::vector<FilledParameter> filled() const {
     std::vector<FilledParameter> all;
     for (std::size_t k = 0; k < missing_.size(); ++k) {
+      if (missing_[k] == 0) continue;
       const auto& q = start_.model.parameters[k];
-      const auto first = values_.begin() + static_cast<std::ptrdiff_t>(q.first);
-      if (missing_[k] > 0)
-        all.push_back({q.name, missing_[k], {first, first + static_cast<std::ptrdiff_t>(q.count)}});
+      auto& of = all.emplace_back(FilledParameter{q.name, missing_[k], {}});
+      for (std::size_t v = q.first; v < q.first + q.count; ++v) {
+        of.value.push_back(values_[v]);
+        of.is_default = of.is_default || is_default_[v];
+      }
     }
     return all;
   }
@@ -232,22 +259,9 @@ class MapMedians {
  private:
   const BoundModel& start_;
   std::vector<double> values_;
+  std::vector<bool> is_default_;                   ///< [slot]
   std::vector<std::atomic<std::size_t>> missing_;  ///< [parameter]
 };
-
-/// F0 that one in 100 texels that are no metals exceeds.
-double strongest_highlight(const BoundModel& start, const std::string& map, std::size_t texels) {
-  const std::size_t step = (texels + most_looked_at - 1) / most_looked_at;
-  std::vector<double> seen((texels + step - 1) / step, std::numeric_limits<double>::quiet_NaN());
-  for_each_texel(start, map, [&](std::size_t t, const BoundModel& model) {
-    if (t % step != 0 || std::ranges::any_of(model.values, [](double v) { return std::isnan(v); }))
-      return;
-    const Texel texel = texel_of(model);
-    if (!texel.metal) seen[t / step] = *std::ranges::max_element(texel.f0);
-  });
-  std::erase_if(seen, [](double x) { return std::isnan(x); });
-  return seen.empty() ? f0_of(1.5) : std::min(quantile(seen, 0.99), f0_of(largest_ior));
-}
 
 /// A plane of the image's shape in the xy plane, its texture's top at the top.
 void add_plane(Json& all, std::size_t width, std::size_t height) {
@@ -369,7 +383,8 @@ MapExport export_map(const std::string& path, std::string& file) {
   e.height = header.height;
   const std::size_t texels = e.width * e.height;
 
-  const double strongest = strongest_highlight(start, path, texels);
+  auto seen = sample_of(start, path, texels);
+  const double strongest = strongest_highlight(start, seen);
   e.ior = mapped<IorFromF0, double>(strongest)[0];
 
   PngImage base, rough, tint;
@@ -388,7 +403,7 @@ MapExport export_map(const std::string& path, std::string& file) {
   const TargetForm form = gltf_target.forms(with_a_lobe).back();
   std::vector<float> residuals(texels, std::numeric_limits<float>::quiet_NaN());
   std::vector<unsigned char> metal(texels);
-  MapMedians medians(start, path, texels);
+  MapMedians medians(start, std::move(seen));
   for_each_texel(start, path, [&](std::size_t t, BoundModel& model) {
     const bool knew = medians.fill(model);
     const Texel texel = texel_of(model);

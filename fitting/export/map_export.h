@@ -14,6 +14,7 @@ struct FilledParameter {
   std::string parameter;
   std::size_t texels = 0;     ///< that do not know it
   std::vector<double> value;  ///< of each channel, or one
+  bool is_default = false;    ///< of any of them
 };
 
 /// Map of parameters as glTF's metallic-roughness material with textures: base colour, metallic and roughness, the highlight's colour
