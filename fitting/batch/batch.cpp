@@ -276,8 +276,8 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
   const auto all_names = document_names(all);
   const std::string made = made_with(b.how);
 
-  std::vector<std::string> results{"summary.csv", "summary.page.json", "summary.html",
-                                   "summary.list.json"};
+  std::vector<std::string> results(summary_names.begin(), summary_names.end());
+  results.emplace_back("summary.list.json");
   results.insert(results.end(), all_names.begin(), all_names.end());
   if (hooks.table_page) std::ranges::transform(all_names, std::back_inserter(results), page_name);
   expect_apart(b, results);

@@ -30,7 +30,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view list_name = "summary.list.json", page_data_name = "summary.page.json";
+constexpr std::string_view list_name = "summary.list.json", page_data_name = summary_names[1];
 constexpr std::string_view side_part = "; side file ";
 
 std::string place(const std::string& folder, std::string_view name) {
@@ -240,10 +240,8 @@ BatchSummary gather(const std::string& folder,
   BatchSummary s = summary_of(folder, list, std::move(known));
   if (!list && s.rows.empty() && s.left_out.empty())
     throw bad_input(folder, "entries", "no result of a fit", "documents of gonio fit -o DIR");
-  const std::vector<std::string> results{"summary.csv", std::string(page_data_name),
-                                         "summary.html"};
-  for (const auto& name : results) expect_no_link(place(folder, name));
-  expect_own(folder, {}, results);
+  for (const char* name : summary_names) expect_no_link(place(folder, name));
+  expect_own(folder, {}, {summary_names.begin(), summary_names.end()});
   const std::string data = batch_json(s, true);
   OutputFile csv(place(folder, "summary.csv")), page_data(place(folder, page_data_name));
   csv.write(batch_csv(s.rows));

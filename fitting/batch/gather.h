@@ -2,6 +2,7 @@
 /// \file
 /// Summaries of a folder of results, made from the documents that lie there, whoever wrote them.
 
+#include <array>
 #include <functional>
 #include <map>
 #include <optional>
@@ -12,6 +13,10 @@
 #include "fitting/batch/batch_document.h"
 
 namespace gonio {
+
+/// Files of a folder's summary.
+inline constexpr std::array<const char*, 3> summary_names{"summary.csv", "summary.page.json",
+                                                          "summary.html"};
 
 /// Tables that a folder of results is to hold: those of the batch that was begun last; and the way in which they are fitted.
 struct BatchList {

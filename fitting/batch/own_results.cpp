@@ -32,7 +32,7 @@ void expect_own(const std::string& folder,
                 const std::vector<std::string>& results) {
   std::unordered_set<std::string> own;
   if (const auto earlier = read_list(folder)) {
-    own = {"summary.csv", "summary.html", "summary.page.json"};
+    own = {summary_names.begin(), summary_names.end()};
     for (auto& name : document_names(earlier->tables)) {
       own.insert(page_name(name));
       own.insert(std::move(name));
