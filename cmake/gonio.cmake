@@ -2,6 +2,17 @@
 
 option(GONIO_WERROR "Treat warnings as errors (the test presets do; a newer compiler must not stop a user)" OFF)
 
+# OPTION, which may be ON, OFF or AUTO, as RESULT for all folders. AUTO is what was found, anew by each configuration: what the first lacks the
+# next may have.
+function(gonio_option_if_found OPTION RESULT FOUND WORDS)
+  set(${OPTION} AUTO CACHE STRING "${WORDS}: ON, OFF, or AUTO where that is found")
+  set(value ${${OPTION}})
+  if(value STREQUAL AUTO)
+    set(value ${FOUND})
+  endif()
+  set(${RESULT} ${value} CACHE INTERNAL "What ${OPTION} comes to")
+endfunction()
+
 # The kernels are compiled for each of these; the best one that the machine has runs. "all" is what packages have. By default they
 # are the plainest one and this machine's best, which is all that it can run and half of the work.
 if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64|amd64")
