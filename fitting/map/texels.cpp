@@ -269,7 +269,7 @@ void LaneFit::fit(std::span<const std::size_t> texels,
     std::fill_n(state_.cost, padding, std::numeric_limits<float>::infinity());
     for (float* const row : {state_.promise, state_.done}) std::fill_n(row, padding, 0.0F);
     if (begins.size() > 1) std::fill_n(state_.damping, padding, 0.0F);
-    descend(steps);
+    descend(begins.size() > 1 ? steps_of_each : steps);
     if (begins.size() > 1) take_lowest(lowest);
   }
 }
@@ -427,9 +427,7 @@ void LaneFit::fit_all() {
     const std::size_t count = std::min(width_, in_.texels - first);
     for (std::size_t l = 0; l < count; ++l) texels[l] = first + l;
     fill_up(count);
-    fit(texels, {},
-        task_.starts.size() > 1 || task_.asked.refine_normals || has_middles_ ? steps_of_each
-                                                                              : first_steps);
+    fit(texels, {}, first_steps);
     for (std::size_t l = 0; l < count; ++l) {
       if (state_.done[l] != 0) continue;
       auto& w = waiting_.emplace_back(Waiting{first + l, {}, state_.damping[l]});
