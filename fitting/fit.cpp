@@ -48,6 +48,29 @@ FitSolver solver_of(const Solution& s, std::vector<std::pair<std::string, double
           std::move(phase_ms)};
 }
 
+/// What a robust fit makes of the parameter that outliers move most, in words; "" where intervals are wide beside it.
+std::string without_outliers(const Problem& p,
+                             const FitDocument& d,
+                             std::span<const double> values,
+                             const LackOfFit& l,
+                             const Uncertainty& u) {
+  constexpr double shows = 0.5;  // of the error, in which the move is
+  std::string words;
+  double most = shows;
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t c = 0; l.outliers && c < q.count; ++c) {
+      const std::size_t slot = q.first + c;
+      if (!p.free.mask()[slot]) continue;
+      const std::size_t i = p.free.index(slot);
+      const double by = l.moved_by_outliers[i], share = std::abs(by) / u[i].std_error;
+      if (!(share > most)) continue;
+      most = share;
+      words = fmt::format(": it finds {} {:.4g} instead of {:.4g}", name_of(q, c, d.channels),
+                          values[slot] - by, values[slot]);
+    }
+  return words;
+}
+
 /// Leaves out the changes of values that are not known.
 void forget_unknown(BinSensitivity& s, const FitDocument& d) {
   for (auto& [name, change] : s.relative_change) {
@@ -72,9 +95,14 @@ bool take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColu
   o.scale = Scale::held;  // the table is at its working scale
   FitDocument alone = fit(t, o, columns).document;
   for (auto& p : alone.parameters) {
-    for (auto& reason : p.reason)
-      if (reason.empty()) reason = "of a fit without the lobe";
-    *std::ranges::find(d.parameters, p.name, &FittedParameter::name) = std::move(p);
+    FittedParameter& beside = *std::ranges::find(d.parameters, p.name, &FittedParameter::name);
+    for (std::size_t c = 0; c < p.value.size(); ++c) {
+      if (p.reason[c].empty()) p.reason[c] = "of a fit without the lobe; the interval holds both";
+      // Nobody knows how much of its light is the lobe's.
+      p.ci95_low[c] = std::fmin(p.ci95_low[c], beside.ci95_low[c]);
+      p.ci95_high[c] = std::fmax(p.ci95_high[c], beside.ci95_high[c]);
+    }
+    beside = std::move(p);
   }
   if (holds_lobe) return false;  // what it costs to hold it is what was asked
   d.cost = alone.cost;
@@ -285,6 +313,8 @@ FitResult fit_and_judge(const Table& t,
     d.warnings.push_back(std::move(w.text));
   }
   facts.odd_angle = lack.odd_angle;
+  facts.outliers = lack.outliers;
+  facts.without_outliers = without_outliers(p, d, f.model.values, lack, u);
   facts.beyond_stated = beside && !beside->holds;
   facts = with_table(std::move(facts), o, table, d);
   for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));

@@ -262,6 +262,21 @@ LackOfFit lack_of_fit(
   Misfit& m = found.misfit;
   bool by_logarithms = s.metric() == Metric::log;
   Left left = left_over(s, p, f, facts);
+  if (!p.options.robust && p.free.size() > 0)
+    if (const auto alone = outliers(left)) {
+      FitOptions options = p.options;
+      options.robust = true;
+      const Problem robust{options, p.start, p.free, p.bounds, p.narrowed, p.offset, p.rounding};
+      Sampling beside_bulk = s;
+      beside_bulk.set_bulk(bulk_of(robust, s));
+      const Fitted beside = compared_by(beside_bulk, robust, scan_samples, f);
+      found = lack_of_fit(beside_bulk, robust, beside, samples_used, facts);
+      found.outliers = alone;
+      found.moved_by_outliers = p.free.of(f.model.values);
+      const auto without = p.free.of(beside.model.values);
+      for (std::size_t i = 0; i < without.size(); ++i) found.moved_by_outliers[i] -= without[i];
+      return found;
+    }
   if (!s.table().truth) found.odd_angle = odd_angle(left, s);
   std::vector<double> residuals;
   for (const auto& v : left.values) residuals.push_back(v.r);
@@ -321,9 +336,9 @@ LackOfFit lack_of_fit(
     // other angle: so few incident angles cannot tell the two apart.
     const bool few_angles =
         std::ranges::any_of(tests.scaled,
-                            [&](const auto& s) {
-                              return s.of == SharedAngle::incident &&
-                                     !enough_angles(number_of_angles(left, s.of));
+                            [&](const auto& axis) {
+                              return axis.of == SharedAngle::incident &&
+                                     !enough_angles(number_of_angles(left, axis.of));
                             }) &&
         tests.of_scales > worth_telling * worth_telling;
     if (!m.tested || first.limited || few_angles) {
@@ -370,7 +385,7 @@ double with_gains(const LackOfFit& l, std::size_t i, double error, double& freed
     by_freedom += own * own / gains.freedom;
   }
   if (variance > 0) freedom = variance * variance / by_freedom;
-  return std::sqrt(variance);
+  return std::hypot(std::sqrt(variance), l.outliers ? l.moved_by_outliers[i] : 0);
 }
 
 void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_against) {
@@ -378,7 +393,7 @@ void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_agai
     double& e = u[i].std_error;
     if (std::isnan(e)) continue;
     double wider = widened(e, l.widening, seen_against[i]);
-    if (!l.gains.empty()) {
+    if (!l.gains.empty() || l.outliers) {
       wider = with_gains(l, i, wider, u[i].freedom);
       u[i].t = students_t_quantile(0.975, std::max(1.0, u[i].freedom));
     }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "fitting/judge/outliers.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/result/document.h"
 #include "fitting/solve/problem.h"
@@ -34,6 +35,9 @@ struct LackOfFit {
     std::vector<double> std_error;  ///< what they make of each free parameter's
   };
   std::vector<SharedGains> gains = {};
+  std::optional<Outliers> outliers = {};
+  /// Free parameters less those of a robust fit, which follows outliers less.
+  std::vector<double> moved_by_outliers = {};
 };
 
 /// Residuals of the right model follow no angle, whatever the noise.  So these are regressed on smooth
@@ -52,13 +56,15 @@ struct LackOfFit {
 /// A misfit is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.  What is left
 /// is also compared with what neighbouring values differ by, and the scales of incident angles with what
 /// an instrument may do.
+/// Of a table with outliers a robust fit is judged in its place: else what they do would be the model's.
+///
 /// Misfit that follows a parameter cannot be seen in what is left; it is taken to be up to four times as
 /// large as what can be seen along one function.  Then 97 % of the intervals that allow for a misfit
 /// hold the truth, of 3,000 of wrong models; with once 75 %.
 LackOfFit lack_of_fit(
     const Sampling&, const Problem&, const Fitted&, double samples_used, TableFacts&);
 
-/// Adds to the error of a parameter what shared gains make of it.
+/// Adds to the error of a parameter what shared gains and outliers make of it.
 /// \param i        number of the parameter among the free ones
 /// \param freedom  degrees of freedom of the error; becomes those of the sum [Welch, Satterthwaite]
 double with_gains(const LackOfFit&, std::size_t i, double error, double& freedom);
@@ -67,7 +73,7 @@ double with_gains(const LackOfFit&, std::size_t i, double error, double& freedom
 /// \param seen_against  error of the values that it was judged against: where the intervals are those of a
 ///                      few clusters they know of it already, and as much is added as it does to this; or NaN
 double widened(double error, double widening, double seen_against);
-/// Makes the intervals as wide as a misfit and shared gains ask.
+/// Makes the intervals as wide as a misfit, shared gains and outliers ask.
 void widen(Uncertainty&, const LackOfFit&, std::span<const double> seen_against);
 
 }  // namespace gonio

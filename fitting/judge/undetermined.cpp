@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <optional>
 #include <string>
 
 #include "fitting/judge/arrow_inverse.h"
@@ -74,9 +75,10 @@ class Ends {
         fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high));
   }
 
-  /// Two ends.
-  void find_ends(std::size_t i) const {
-    const double t = students_t_quantile(0.975, freedom(i)), much = t * t * variance(i) * share_;
+  /// Two ends.  \param more  rise of twice the cost that does as well
+  void find_ends(std::size_t i, double more = 0) const {
+    const double t = students_t_quantile(0.975, freedom(i)),
+                 much = t * t * variance(i) * share_ + std::max(more, 0.0);
     CostAlong along(problem_, thin_, best_, i);
     const double here = best_.model.values[problem_.free.slots()[i]];
     const double found = fitted_.model.values[problem_.free.slots()[i]];
@@ -161,22 +163,23 @@ bool is_pushed(const NormalEquations& e, std::size_t i, double left, double roun
   return gain > 3.84 * variance;
 }
 
-/// Takes all lobes' values where the diffuse terms alone, fitted anew, cost no more than `luck` more.
-bool forget_needless_lobes(const Problem& p,
-                           const FitData<double>& thin,
-                           const Fitted& f,
-                           double cost,
-                           double luck,
-                           Uncertainty& u) {
-  if (p.start.model.diffuse.empty() || p.start.model.lobes.empty()) return false;
+/// Takes all lobes' values where the diffuse terms alone, fitted anew, cost no more than `luck` more; by how much twice the cost is
+/// more then.
+std::optional<double> forget_needless_lobes(const Problem& p,
+                                            const FitData<double>& thin,
+                                            const Fitted& f,
+                                            double cost,
+                                            double luck,
+                                            Uncertainty& u) {
+  if (p.start.model.diffuse.empty() || p.start.model.lobes.empty()) return {};
   const Model diffuse = with_lobes(p.start.model, {});
   const Problem rest = with_free(p, diffuse, slots_read(diffuse));
-  if (rest.free.size() == p.free.size()) return false;  // its lobes are given
+  if (rest.free.size() == p.free.size()) return {};  // its lobes are given
   const double without =
       minimise(rest, thin, {rest.start.model, f.model.values, {}}, f.huber).solution.at.cost;
-  if (2 * (without - cost) >= luck) return false;
+  if (2 * (without - cost) >= luck) return {};
   forget_lobes(p, u, Lobes::whole, "without the lobe the model meets the table as well");
-  return true;
+  return 2 * (without - cost);
 }
 
 }  // namespace
@@ -241,15 +244,21 @@ bool find_undetermined(const Problem& p,
         u[p.free.index(s)].forget("moved over its whole range it changes no more than luck does");
   }
 
-  if (forget_needless_lobes(p, thin, f, here.cost, luck * variance, u)) return true;
+  const auto needless = forget_needless_lobes(p, thin, f, here.cost, luck * variance, u);
 
   // What is left has a value with an interval, or a limit.
   constexpr std::size_t many = 32;  // unknowns, each of which would take fits of all the others
-  if (n > many) return false;
+  if (n > many) return needless.has_value();
   Fitted best = minimise(p, thin, f.model, f.huber);
   best.huber = f.huber;
   const double left = count / share - static_cast<double>(n);
   const Ends ends(p, thin, best, f, variance, share, left, u);
+  if (needless) {  // whose light may be the diffuse terms', or not
+    const auto diffuse = slots_read(with_lobes(p.start.model, {}));
+    for (std::size_t i = 0; i < n; ++i)
+      if (diffuse[p.free.slots()[i]]) ends.find_ends(i, *needless);
+    return true;
+  }
   for (std::size_t i = 0; i < n; ++i) {
     if (u[i].status == ParameterStatus::at_bound) {
       if (!p.narrowed[i] && !is_pushed(here, i, count - static_cast<double>(n), rounding))

@@ -22,7 +22,7 @@ void forget_lobes(const Problem&, Uncertainty&, Lobes, const std::string& why);
 ///
 /// The lobe as a whole is asked too: where the diffuse terms alone, fitted anew, do as well or better,
 /// nothing is known of it.  It may be unable to vanish: Schlick's F is 1 at 90° whatever f0 is.
-/// Returns whether that is so.
+/// Returns whether that is so; intervals of the diffuse terms then hold what is left of them beside any lobe.
 ///
 /// A parameter that is left and stands at a bound of all values there are, or has an interval as wide as
 /// its range, is held elsewhere, the others moved to where they are best.  Where only one end of the range costs

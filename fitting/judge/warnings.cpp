@@ -82,6 +82,17 @@ std::vector<std::string> warnings(const FitOptions& o,
                                   const FitDocument& d,
                                   const FitFacts& f) {
   std::vector<std::string> all;
+  if (const auto& alone = f.outliers) {
+    all.push_back(fmt::format(
+        "about {} ({}) are outliers, typically a factor of {} off those around them; the fit "
+        "follows them",
+        counted(alone->values, "value"), percent(alone->share),
+        typical_factor(std::log(alone->typical))));
+    const auto [l, v] = SampleAngles(t).directions(alone->farthest);
+    all.push_back(fmt::format("the farthest outlier is at theta_i {:.3g}°, theta_o {:.3g}°",
+                              std::acos(std::clamp(l.z, -1.0, 1.0)) / degree,
+                              std::acos(std::clamp(v.z, -1.0, 1.0)) / degree));
+  }
   for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
   if (const auto& odd = f.odd_angle)
@@ -190,7 +201,7 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
   std::string size = typical_factor(m.size);
   for (std::size_t k = 0; k < m.follows.size(); ++k)
     size += (k == 0 ? ", varying with " : k + 1 < m.follows.size() ? ", " : " and ") + m.follows[k];
-  std::vector<std::string> all{"the model misses the table by a factor of " + size +
+  std::vector<std::string> all{"beyond noise the model is off by a factor of " + size +
                                "; intervals allow for it"};
   if (const auto& c = m.worst_cell)
     all.push_back(

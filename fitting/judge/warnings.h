@@ -30,6 +30,9 @@ struct FitFacts {
   bool offset = false;         ///< whether negative values are an offset rather than noise
   bool copies = false;         ///< whether angles of the table only repeat another
   std::optional<OddAngle> odd_angle = {};
+  std::optional<Outliers> outliers = {};
+  std::string without_outliers =
+      {};  ///< what a robust fit finds otherwise, in words; "" where that is little
   std::optional<Peak> retro = {};  ///< the highlight, where it is at wo = wi
   std::optional<Peak> unresolved =
       {};  ///< that of a narrow lobe, where the samples do not resolve it

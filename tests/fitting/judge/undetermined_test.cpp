@@ -10,6 +10,7 @@
 #include "fitting/judge/warnings.h"
 #include "fitting/support.h"
 #include "many_fits.h"
+#include "table/sample_mask.h"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -245,6 +246,27 @@ TEST(Undetermined, WhatHasALimitMovesTheOthersToo) {
   const auto dark = held("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.6,f0=0.001,kd=0.5",
                          "kd", in_plane, 16);
   EXPECT_GE(dark.inside + 2, dark.stated);
+}
+
+TEST(Undetermined, WhatALobeThatIsNotKnownMayTakeIsInTheDiffusesInterval) {
+  // Viewed near the normal a wide highlight is as flat as the diffuse term.
+  constexpr const char* paint = "lambert+ggx/smith_ggx.correlated/schlick";
+  unsigned not_known = 0, inside = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Table t = synthesize(test::bind(paint, "alpha=0.7,f0=0.04,kd=0.5", 1),
+                         {.layout = Layout::hemisphere, .noise = 0.02, .seed = seed});
+    leave_out(t, "theta_i > 20 or theta_o > 40");
+    FitOptions o;
+    o.model = paint;
+    o.intervals = Intervals::independent;
+    const auto d = fit(t, o).document;
+    if (parameter(d, "alpha").status[0] != ParameterStatus::not_identifiable) continue;
+    const auto& kd = parameter(d, "kd");
+    ++not_known;
+    inside += kd.ci95_low[0] <= 0.5 && 0.5 <= kd.ci95_high[0];
+  }
+  EXPECT_GE(not_known, 5u);
+  EXPECT_GE(inside, not_known - 1);
 }
 
 TEST(Undetermined, DiffuseThatIsNotThereLeavesTheLobesIntervalsWhole) {

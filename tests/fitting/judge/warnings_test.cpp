@@ -70,7 +70,7 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   m.worst_cell = {10, 22.5, 60, 75, 40, -0.3};
   EXPECT_EQ(misfit_in_words(m),
             (std::vector<std::string>{
-                "the model misses the table by a factor of 1.088, "
+                "beyond noise the model is off by a factor of 1.088, "
                 "varying with theta_h, theta_d and grazing angles; "
                 "intervals allow for it",
                 "the largest systematic deviation is near theta_h 16°, theta_d 68°: the model is "
