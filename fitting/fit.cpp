@@ -232,7 +232,8 @@ FitResult fit_and_judge(const Table& t,
   if (has_other)
     meanwhile.run([&] {
       const Bins other = bins == Bins::centre ? Bins::edge : Bins::centre;
-      sensitivity = bin_sensitivity(p, found.scanned, sampling_of(other, folded), other, f);
+      sensitivity =
+          bin_sensitivity(p, found.scanned, sampling, sampling_of(other, folded), other, f);
     });
   const auto beside = beside_stated(sampling, p, f.solution.at.cost, f.values);
   const Judged judged = judge(sampling, p, f, beside && beside->holds);

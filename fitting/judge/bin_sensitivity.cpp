@@ -8,13 +8,15 @@ namespace gonio {
 
 std::optional<BinSensitivity> bin_sensitivity(const Problem& p,
                                               const FitData<double>& scanned,
+                                              const Sampling& in_use,
                                               const Sampling& elsewhere,
                                               Bins other,
                                               const Fitted& f) {
   const Fitted here = minimise(p, scanned, f.model, f.huber);
   const Fitted there = minimise(p, fit_data<double>(elsewhere, scan_samples), f.model, f.huber);
   if (!here.solution.converged || !there.solution.converged) return {};
-  BinSensitivity s{std::string(name_of(other)), {}, 0};
+  BinSensitivity s{std::string(name_of(other)), {}, 0, 0};
+  s.log_rms_here = residual_statistics(here.model, in_use, scan_samples).log_rms;
   s.log_rms = residual_statistics(there.model, elsewhere, scan_samples).log_rms;
   for (const auto& q : p.start.model.parameters) {
     std::vector<double> change;

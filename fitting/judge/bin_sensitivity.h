@@ -13,9 +13,10 @@ namespace gonio {
 /// Changes between two fits that differ in the bin convention alone, on thinned tables: a ratio needs no
 /// million bins.  None where one of them did not converge.
 /// \param scanned    thinned, in the convention of the fit
-/// \param elsewhere  the table in the convention `other`
+/// \param in_use     the table in the convention of the fit   \param elsewhere  the table in the convention `other`
 std::optional<BinSensitivity> bin_sensitivity(const Problem&,
                                               const FitData<double>& scanned,
+                                              const Sampling& in_use,
                                               const Sampling& elsewhere,
                                               Bins other,
                                               const Fitted&);

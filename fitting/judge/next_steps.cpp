@@ -227,9 +227,9 @@ std::vector<std::string> next_steps(const FitOptions& o,
                     "may return less light: its diffuse is what the lobe lets through");
 
   for (const auto& s : d.sensitivity)
-    if (s.log_rms < 0.95 * d.residuals.log_rms)
+    if (s.log_rms < 0.95 * s.log_rms_here)
       steps.add(fmt::format("--bins {} meets the table better: log RMS {:.3g} for {:.3g}", s.other,
-                            s.log_rms, d.residuals.log_rms));
+                            s.log_rms, s.log_rms_here));
 
   for (const auto& b : o.bounds) {
     const auto p = std::ranges::find(d.parameters, b.name, &FittedParameter::name);

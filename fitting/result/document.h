@@ -69,7 +69,8 @@ struct FitResiduals {
 struct BinSensitivity {
   std::string other;  ///< the convention not used
   std::vector<std::pair<std::string, std::vector<double>>> relative_change;
-  double log_rms = 0;  ///< under the other convention
+  double log_rms = 0;       ///< under the other convention
+  double log_rms_here = 0;  ///< under that of the fit, of the same samples
 };
 
 /// Cell of a certificate.

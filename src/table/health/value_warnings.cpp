@@ -52,30 +52,28 @@ std::string unit_of(const Table& t, double light) {
 
 /// Least value of each incident direction whose samples all are above 1/π, as a share of the light: no
 /// proof, since the samples may lie in one plane.  Of directions that are all apart, those of 10° of θ_i are
-/// taken together, where most lie away from the highlight.
+/// taken together.  Values of the highlight are left out.
 std::optional<std::pair<double, double>> bright_everywhere(const Table& t) {
   const DirectionList* l = t.list();
   if (!l) return {};
   constexpr std::size_t few = 8, large = 100'000;
   if (t.size() > large) return {};
   const SampleAngles at(t);
-  const auto values_of = [&](auto&& direction_of) {
-    std::map<std::pair<double, double>, std::vector<double>> of;
-    for (std::size_t i = 0; i < t.size(); ++i)
+  const auto values_by = [&](auto&& direction_of) {
+    constexpr double highlight = 20 * degree;  // which says nothing of what is around it
+    std::map<std::pair<double, double>, std::vector<double>> by;
+    for (std::size_t i = 0; i < t.size(); ++i) {
+      if (at.half_difference(i).theta_h < highlight) continue;
       for (const auto& plane : t.values)
-        if (mask(at(i), plane[i]) == Mask::valid)
-          if (const auto direction = direction_of(i)) of[*direction].push_back(plane[i]);
-    return of;
+        if (mask(at(i), plane[i]) == Mask::valid) by[direction_of(i)].push_back(plane[i]);
+    }
+    return by;
   };
-  using Direction = std::optional<std::pair<double, double>>;
-  auto of = values_of([&](std::size_t i) {
-    return Direction({l->theta_i_deg[i], l->phi_i_deg[i]});
-  });
+  auto of = values_by([&](std::size_t i) { return std::pair{l->theta_i_deg[i], l->phi_i_deg[i]}; });
   if (std::ranges::all_of(of, [](const auto& d) { return d.second.size() < few; })) {
-    constexpr double band = 10, highlight = 20;
-    of = values_of([&](std::size_t i) {
-      if (at.half_difference(i).theta_h < highlight * degree) return Direction();
-      return Direction({band * (std::floor(l->theta_i_deg[i] / band) + 0.5), 0});
+    constexpr double band = 10;
+    of = values_by([&](std::size_t i) {
+      return std::pair{band * (std::floor(l->theta_i_deg[i] / band) + 0.5), 0.0};
     });
   }
   std::optional<std::pair<double, double>> most;  // light, θ_i
