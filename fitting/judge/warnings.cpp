@@ -212,7 +212,8 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
                     c->difference > 1 ? factor(1 + c->difference) + " times as bright as the table"
                     : c->difference > 0    ? percent(c->difference) + " too bright"
                     : c->difference > -0.5 ? percent(-c->difference) + " too dark"
-                                           : factor(1 / (1 + c->difference)) + " times too dark"));
+                    : c->difference > -1   ? factor(1 / (1 + c->difference)) + " times too dark"
+                                           : "dark beside the table"));
   return all;
 }
 

@@ -14,6 +14,7 @@
 #include "base/text.h"
 #include "table/format/columns_command.h"
 #include "table/format/measured_by.h"
+#include "table/health/fills.h"
 #include "table/health/health.h"
 #include "table/health/rounding.h"
 
@@ -518,19 +519,39 @@ std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
   return all;
 }
 
-/// A greatest value that many samples share is where a detector was full; a least one, where noise was clipped.
+/// Name of a channel's values in a mask.
+std::string in_mask(const std::string& channel) {
+  return channel == "f" ? channel : "f_" + channel;
+}
+
+void warn_of_fill(const Table& t, const Fill& fill, std::vector<std::string>& all) {
+  std::vector<std::string> channels, conditions;
+  for (const std::size_t c : fill.channels) {
+    channels.push_back(t.channels[c]);
+    conditions.push_back(
+        fmt::format("{0} >= {1} and {0} <= {1}", in_mask(t.channels[c]), fill.value));
+  }
+  all.push_back(
+      fmt::format("{} of {} values of channel {} are {}, unlike those beside them: a mark for "
+                  "missing data? (--mask '{}' leaves {} out)",
+                  fill.sharers, fill.values, few_of(channels), fill.value, conditions[0],
+                  conditions.size() > 1 ? "their samples" : "them"));
+}
+
+/// A greatest value that many samples share is where a detector was full; a least one, where noise was clipped; any other, where
+/// somebody filled a gap.
 void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
   const auto found = [](const SharedEnd& e) {
     return fmt::format("{} of {} values of channel {} are {}", e.sharers, e.values,
                        few_of(e.channels), e.value);
   };
   const Table& t = facts.table();
-  if (const auto full = shared_ends(t, true); !full.empty()) {
+  const auto full = shared_ends(t, true);
+  if (!full.empty()) {
     std::vector<std::string> conditions;
     for (const auto& e : full)
       for (const auto& channel : e.channels)
-        conditions.push_back(
-            fmt::format("{} >= {}", channel == "f" ? channel : "f_" + channel, e.value));
+        conditions.push_back(fmt::format("{} >= {}", in_mask(channel), e.value));
     const bool few = conditions.size() <= most_listed;
     all.push_back(fmt::format(
         "{}, and none is more: a full detector? (--mask {} {})", found(full[0]),
@@ -550,6 +571,8 @@ void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
                   ", and none is less: clipped noise? (--metric l2_cosine minds it less)");
     return;
   }
+  if (full.empty())
+    if (const auto fill = fill_of(facts)) warn_of_fill(t, *fill, all);
 }
 
 /// Noise lets neighbours change sides; what was taken off too much does not.

@@ -1,0 +1,81 @@
+#include "table/health/fills.h"
+
+#include <algorithm>
+#include <cmath>
+#include <unordered_map>
+#include <utility>
+
+#include "base/quantile.h"
+#include "table/health/rounding.h"
+
+namespace gonio {
+namespace {
+
+constexpr std::size_t few_sharers = 8;
+constexpr std::size_t times_as_often =
+    4;  ///< times as often as any other value: rounding makes them all frequent
+constexpr std::size_t rarely = 500;  ///< of so many values
+constexpr double most_of_all = 0.6;  ///< of the values
+constexpr double least_step = 0.15;  ///< ln of a factor between a fill and what is beside it
+constexpr double beyond_spread = 6;  ///< times what neighbours and digits differ by
+
+/// Most frequent value of a channel, where it is far more frequent than all others.
+struct Frequent {
+  double value;
+  std::size_t times, values;
+};
+std::optional<Frequent> most_frequent(const Table& t, const SampleAngles& at, std::size_t c) {
+  const std::size_t step = t.size() / 60'000 + 1;
+  std::unordered_map<double, std::size_t> times;
+  std::size_t values = 0;
+  for (std::size_t i = 0; i < t.size(); i += step)
+    if (const double v = t.values[c][i]; v > 0 && mask(at(i), v) == Mask::valid)
+      ++times[v], ++values;
+  Frequent first{0, 0, values};
+  std::size_t second = 0;
+  for (const auto& [value, n] : times)
+    if (n > first.times)
+      second = std::exchange(first.times, n), first.value = value;
+    else
+      second = std::max(second, n);
+  const bool stands_out =
+      first.times >= few_sharers && first.times >= times_as_often * second &&
+      rarely * first.times >= values &&
+      static_cast<double>(first.times) < most_of_all * static_cast<double>(values);
+  return stands_out ? std::optional(first) : std::nullopt;
+}
+
+/// Median ln of the factor between a value and those that stand beside it in the table.
+double step_beside(const Table& t, const SampleAngles& at, std::size_t c, double value) {
+  const Values& plane = t.values[c];
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < t.size(); ++i) {
+    if ((plane[i] == value) == (plane[i - 1] == value)) continue;
+    const std::size_t other = plane[i] == value ? i - 1 : i;
+    if (plane[other] > 0 && mask(at(other), plane[other]) == Mask::valid)
+      steps.push_back(std::abs(std::log(plane[other] / value)));
+  }
+  return steps.empty() ? 0 : median(steps);
+}
+
+}  // namespace
+
+std::optional<Fill> fill_of(TableFacts& facts) {
+  const Table& t = facts.table();
+  if (t.truth) return {};
+  const SampleAngles at(t);
+  std::optional<Fill> found;
+  for (std::size_t c = 0; c < t.values.size(); ++c) {
+    const auto f = most_frequent(t, at, c);
+    if (!f || (found && f->value != found->value)) continue;
+    const double spread = facts.noise().sigma.value_or(0) + rounding_of(t).of(f->value) / f->value;
+    if (step_beside(t, at, c, f->value) < std::max(least_step, beyond_spread * spread)) continue;
+    if (!found) found = {f->value, 0, 0, {}};
+    found->sharers += f->times;
+    found->values += f->values;
+    found->channels.push_back(c);
+  }
+  return found;
+}
+
+}  // namespace gonio
