@@ -40,8 +40,8 @@ std::optional<Frequent> most_frequent(const Table& t, const SampleAngles& at, st
       second = std::max(second, n);
   constexpr std::size_t few_values = 50;  // different: then all have many sharers
   const bool stands_out =
-      times.size() >= few_values && first.times >= few_sharers && first.times >= times_as_often * second &&
-      rarely * first.times >= values &&
+      times.size() >= few_values && first.times >= few_sharers &&
+      first.times >= times_as_often * second && rarely * first.times >= values &&
       static_cast<double>(first.times) < most_of_all * static_cast<double>(values);
   return stands_out ? std::optional(first) : std::nullopt;
 }
