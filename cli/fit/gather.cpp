@@ -3,6 +3,7 @@
 
 #include <algorithm>
 
+#include "base/error.h"
 #include "base/file.h"
 #include "cli/fit/batch_words.h"
 #include "cli/fit/map_result.h"
@@ -57,9 +58,11 @@ Exit run(const GatherCall& o) {
     print_summary_place(o.folder);
   }
   // Where nothing says which tables there are, what cannot be read may be the result of one.
-  const bool lost = !list && std::ranges::find(s.left_out, LeftOut::unreadable,
-                                               &LeftOutDocument::why) != s.left_out.end();
-  return lost ? Exit::bad_input : s.outcome();
+  const auto lost = std::ranges::count(s.left_out, LeftOut::unreadable, &LeftOutDocument::why);
+  if (!list && lost > 0)
+    throw bad_input(o.folder, "documents", fmt::format("{} that cannot be read", lost),
+                    "results of fits");
+  return s.outcome();
 }
 
 }  // namespace

@@ -101,7 +101,7 @@ std::size_t packed_rows(Imf::Compression c) {
   }
 }
 
-void expect_sound_exr(const std::string& path) {
+std::size_t expect_sound_exr(const std::string& path) {
   InputFile in(path);  // says plainly what is no file at all
   const auto refuse = [&](const std::string& name, const std::string& found,
                           const std::string& expected) {
@@ -121,14 +121,21 @@ void expect_sound_exr(const std::string& path) {
     throw bad_input(in.path(), "byte 4", "an image of several parts", "one part");
   std::array<std::uint64_t, 2> image{}, tile{};
   std::size_t channels = 0, rows = packed_rows(Imf::ZIP_COMPRESSION);  // where it says nothing
+  constexpr std::size_t most_attributes = 1000, most_header = std::size_t{1} << 22;
   std::set<std::string> seen;
   for (std::string name = text(); !name.empty(); name = text()) {
     if (!seen.insert(name).second) throw refuse(name, "a second one", "one of each name");
+    if (seen.size() > most_attributes)
+      throw bad_input(in.path(), "header", fmt::format("more than {} attributes", most_attributes),
+                      "fewer");
     const std::string type = text();
     std::int32_t size = 0;
     in.read(&size, sizeof size);
     if (size < 0 || static_cast<std::uint64_t>(size) > in.size() - in.position())
       throw refuse(name, fmt::format("{} bytes", size), "as many as the file has");
+    if (static_cast<std::uint64_t>(size) + in.position() > most_header)
+      throw refuse(name, fmt::format("{} bytes", size),
+                   fmt::format("a header of at most {} bytes", most_header));
     std::string value(static_cast<std::size_t>(size), '\0');
     in.read(value.data(), value.size());
     if (!fills(type, value))
@@ -143,6 +150,7 @@ void expect_sound_exr(const std::string& path) {
       if (name == "tiles" && type == "tiledesc") tile[k] = std::max(number_at(value, 4 * k), 1U);
     }
   }
+  const std::size_t header = in.position();
   // On opening, it allocates for each tile's place in the file, and for the lines that are packed
   // as one.
   if (tile[0] > 0)
@@ -169,6 +177,8 @@ void expect_sound_exr(const std::string& path) {
     Imf::Header::setMaxTileSize(longest, longest);
     return true;
   }();
+  constexpr std::size_t of_an_attribute = 1024, copies = 4;  // as OpenEXR keeps them
+  return of_an_attribute * seen.size() + copies * header;
 }
 
 std::vector<half> in_half(const std::string& path, std::span<const float> values) {

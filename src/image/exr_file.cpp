@@ -24,7 +24,7 @@ namespace {
 class ExrFile : public ImageFile {
  public:
   explicit ExrFile(const std::string& path) : ImageFile(path) {
-    expect_sound_exr(path);
+    held_ = expect_sound_exr(path);
     reading([&] {
       auto lines = std::make_unique<Imf::InputFile>(path.c_str(), 0);
       const Imf::Header& header = lines->header();
@@ -48,7 +48,7 @@ class ExrFile : public ImageFile {
       }
       lines_ = std::move(lines);
       // What is packed as one is there twice, packed and not.
-      held_ = 2 * block_width_ * block_height_ * channels_.size() * sizeof(float);
+      held_ += 2 * block_width_ * block_height_ * channels_.size() * sizeof(float);
     });
   }
 

@@ -23,7 +23,8 @@ Image without_planes(const Imf::Header&);
 /// Refuses what is no file, and what OpenEXR would believe: it allocates what an attribute claims to be long, 2 GB in a file of
 /// 1 kB, so that each must fit in the file, and what is in it fill it; the same of tiles and lines; and sides beyond `longest_side`,
 /// which it then refuses itself.
-void expect_sound_exr(const std::string& path);
+/// Returns the bytes of memory that its header takes while it is open, about.
+std::size_t expect_sound_exr(const std::string& path);
 /// Rows that a file in scan lines packs as one.
 std::size_t packed_rows(Imf::Compression);
 /// The nearest halves; a finite number that becomes infinite is refused.  \param path  told in errors

@@ -38,6 +38,11 @@ struct PngStructs {
   void end() { png_destroy_read_struct(&png, &info, nullptr); }
 };
 
+/// Names of chunks that say nothing of light, each with its 0.
+constexpr auto passed_over =
+    std::to_array<png_byte>({'t', 'E', 'X', 't', 0, 'z', 'T', 'X', 't', 0, 'i', 'T', 'X', 't', 0,
+                             'i', 'C', 'C', 'P', 0, 's', 'P', 'L', 'T', 0, 'e', 'X', 'I', 'f', 0});
+
 class PngFile final : public ImageFile {
  public:
   PngFile(const std::string& path, bool linear) : ImageFile(path) {
@@ -105,7 +110,10 @@ class PngFile final : public ImageFile {
     const bool read = done(structs_.png, [&] {
       png_set_user_limits(structs_.png, longest_side, longest_side);
       png_set_chunk_malloc_max(structs_.png, 1 << 20);
-      png_set_chunk_cache_max(structs_.png, 64);
+      png_set_chunk_cache_max(structs_.png, 1);
+      // Of these each would be kept while the file is open, unpacked.
+      png_set_keep_unknown_chunks(structs_.png, PNG_HANDLE_CHUNK_NEVER, passed_over.data(),
+                                  passed_over.size() / 5);
       png_set_read_fn(structs_.png, this, on_read);
       png_read_info(structs_.png, structs_.info);
     });

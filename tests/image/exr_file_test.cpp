@@ -115,6 +115,21 @@ std::string written(const Folder& f, std::size_t rows_at_once, int threads, ExrW
   return test::read_bytes(f / "w.exr");
 }
 
+TEST(ExrFile, CountsItsHeaderInWhatItHolds) {
+  const Folder f;
+  Image image;
+  image.width = image.height = 1;
+  image.channels = {"Y"};
+  image.planes = {{0.5F}};
+  const auto held = [&] {
+    f.write("a.exr", exr_bytes("a.exr", image, Storage::single));
+    return open_image(f / "a.exr")->held();
+  };
+  const std::size_t before = held();
+  image.attributes["note"] = std::string(1'000'000, 'x');
+  EXPECT_GE(held(), before + 4'000'000) << "OpenEXR keeps a text four times";
+}
+
 TEST(ExrWriter, WritesTheSameBytesWhateverTheRowsAtOnceAndTheThreads) {
   const Folder f;
   const std::string whole = written(f, height, 0, ExrWriter::Packing::zip);

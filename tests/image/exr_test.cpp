@@ -284,5 +284,28 @@ TEST(Exr, RefusesASecondAttributeOfAName) {
              "attribute compression: found a second one");
 }
 
+TEST(Exr, RefusesHeadersThatFillTheMemory) {
+  const Folder folder;
+  const auto line = [&](const ExrHeader& h) {
+    return test::refusal([&] { read_exr_header(folder.write("h.exr", h.text())); });
+  };
+  const auto with_attributes = [&](int n) {
+    ExrHeader h = ExrHeader().add("channels", "chlist", one_channel);
+    for (int k = 0; k < n; ++k) h.add("a" + std::to_string(k), "int", "1234");
+    return line(h.add_rest());
+  };
+  EXPECT_EQ(with_attributes(900), "");
+  EXPECT_HAS(with_attributes(1000), "header: found more than 1000 attributes");
+  const auto with_text = [&](std::size_t n) {
+    return line(ExrHeader()
+                    .add("channels", "chlist", one_channel)
+                    .add("t", "string", std::string(n, 't'))
+                    .add_rest());
+  };
+  EXPECT_EQ(with_text(4'000'000), "");
+  EXPECT_HAS(with_text(5'000'000),
+             "attribute t: found 5000000 bytes, expected a header of at most");
+}
+
 }  // namespace
 }  // namespace gonio

@@ -12,6 +12,7 @@
 #include "support.h"
 
 #include <gtest/gtest.h>
+#include <malloc.h>
 #include <png.h>
 
 namespace gonio {
@@ -23,6 +24,7 @@ struct Written {
   int depth = 16, type = PNG_COLOR_TYPE_RGB, interlace = PNG_INTERLACE_NONE;
   double gamma = 1;  ///< 0: says nothing
   bool srgb = false;
+  int packed_texts = 0;  ///< each of 0.9 MB, packed to a thousandth
 };
 constexpr std::uint32_t wide = 5, high = 4;
 
@@ -41,6 +43,16 @@ std::string png_of(const Written& w) {
   png_set_IHDR(png, info, wide, high, w.depth, w.type, w.interlace, PNG_COMPRESSION_TYPE_DEFAULT,
                PNG_FILTER_TYPE_DEFAULT);
   if (w.gamma > 0) png_set_gAMA(png, info, w.gamma);
+  std::string blanks(900'000, ' ');
+  for (int k = 0; k < w.packed_texts; ++k) {
+    png_text text{};
+    text.compression = PNG_TEXT_COMPRESSION_zTXt;
+    std::string key = "Comment";
+    text.key = key.data();
+    text.text = blanks.data();
+    text.text_length = blanks.size();
+    png_set_text(png, info, &text, 1);
+  }
   if (w.srgb) png_set_sRGB(png, info, PNG_sRGB_INTENT_RELATIVE);
   png_write_info(png, info);
   const std::size_t numbers = png_get_channels(png, info);
@@ -87,6 +99,15 @@ TEST(PngFile, OfSixteenBitsIsReadInPartsInAnyOrder) {
   expect_numbers(*file, {0, 0, wide, high}, 1);
   expect_numbers(*file, {2, 3, 2, 1}, 2);
   expect_numbers(*file, {1, 0, 3, 2}, 0);  // above: from the beginning
+}
+
+TEST(PngFile, KeepsNoTextInMemoryWhileItIsOpen) {
+  const Folder f;
+  f.write("a.png", png_of({.packed_texts = 20}));
+  const auto before = mallinfo2().uordblks;
+  const auto file = open_image(f / "a.png");
+  EXPECT_LT(mallinfo2().uordblks - before, std::size_t{1} << 20) << "unpacked they are 18 MB";
+  expect_numbers(*file, {0, 0, wide, high}, 1);
 }
 
 TEST(PngFile, LeavesTransparencyOutAndKnowsGrey) {
