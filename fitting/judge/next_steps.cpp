@@ -214,7 +214,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
   if (f.cost_of_fewer < d.cost &&
       std::ranges::count(spec.lobes, spec.lobes[0]) == std::ssize(spec.lobes))
     steps.add_model(without_lobe(spec, 0), "meets the table better");
-  else if (unknown && !mended)
+  else if (unknown && !mended && !f.no_f)
     steps.add_model(less, f.needless ? "does as well: nothing is known of the lobe"
                                      : "says all that is known: of the lobe nothing is");
   if (f.unresolved)

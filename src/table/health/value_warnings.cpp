@@ -644,6 +644,17 @@ std::optional<std::size_t> negative_channel(TableFacts& facts) {
   return of;
 }
 
+/// What measured tables have that are f all the same.
+void warn_of_reciprocity(TableFacts& facts, std::vector<std::string>& all) {
+  constexpr double much = 0.05, beside_noise = 5;
+  const double error = facts.reciprocity().error.value_or(0);
+  if (error > std::max(much, beside_noise * facts.noise().sigma.value_or(0)))
+    all.push_back(fmt::format(
+        "exchanging the directions changes values by {:.2g} %, far more than noise: errors of the "
+        "instrument, which no model follows",
+        100 * error));
+}
+
 std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   std::vector<std::string> texts, cosine;
   const auto* c = warn_of_cosine(facts, cosine);
@@ -651,11 +662,13 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   const std::size_t of_scale = texts.size();
   if (!c && warn_of_elevation(facts, texts))
     cosine.clear();  // of exchanged directions there is nothing more to say
+  const bool is_told = !cosine.empty();
   texts.insert(texts.end(), cosine.begin(), cosine.end());
   warn_of_negative_channel(facts, texts);
   warn_of_offset(facts, texts);
   warn_of_shared_ends(facts, texts);
   const std::size_t of_unit = texts.size();
+  if (!is_told) warn_of_reciprocity(facts, texts);
   warn_of_dark_channels(facts.table(), texts);
   warn_of_zeros(facts, texts);
   warn_of_sure_values(facts.table(), texts);

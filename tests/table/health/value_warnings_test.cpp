@@ -43,14 +43,18 @@ Table painted(double turn, double kd = 0.3, double alpha = 0.3, double first = 0
 }
 
 /// The sentences after the values were changed.
-std::vector<std::string> said_of(
+std::vector<ValueWarning> warnings_of(
     Table t, const std::function<double(const Angles<double>&, double)>& change) {
   const SampleAngles at(t);
   for (auto& plane : t.values)
     for (std::size_t i = 0; i < plane.size(); ++i) plane[i] = change(at(i), plane[i]);
   TableFacts facts(t);
+  return value_warnings(facts);
+}
+std::vector<std::string> said_of(
+    Table t, const std::function<double(const Angles<double>&, double)>& change) {
   std::vector<std::string> all;
-  for (auto& w : value_warnings(facts)) all.push_back(std::move(w.text));
+  for (auto& w : warnings_of(std::move(t), change)) all.push_back(std::move(w.text));
   return all;
 }
 bool says(const std::vector<std::string>& all, std::string_view words) {
@@ -155,6 +159,16 @@ TEST(ValueWarnings, SayThatExchangedDirectionsChangeValuesByFarMoreThanNoise) {
       says(said_of(painted(180),
                    [&](const auto&, double f) { return f * std::exp(0.1 * normal(random)); }),
            "exchanging the directions"));
+}
+
+TEST(ValueWarnings, LeaveAModelInPlayWhereTheInstrumentChangesValuesAnExchangeKeeps) {
+  for (const auto& [share, told] : {std::pair{0.08, true}, {0.03, false}}) {
+    const double more = 1 + share;
+    const auto all = warnings_of(
+        painted(180), [more](const auto& a, double f) { return a.nol > a.nov ? more * f : f; });
+    ASSERT_EQ(all.size(), told ? 1u : 0u) << share;
+    if (told) EXPECT_FALSE(all[0].of_unit) << "a model may still be chosen by them";
+  }
 }
 
 TEST(ValueWarnings, SayThatValuesAreRoundedCoarsely) {
