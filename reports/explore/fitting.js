@@ -44,7 +44,7 @@ function some_pair() {
   if (!pair) throw new Error(no_pair);
   return pair;
 }
-const no_pair = "A fit needs a table and a model with as many channels: add one.";
+const no_pair = "A fit needs a table and a model with as many channels: choose or add one.";
 function show_fitting() {
   if (!can_fit) return;
   $("fitting").hidden = !items.some((item) => !is_model(item));
@@ -123,7 +123,7 @@ function fitted(text, name, table, optimum, id, command) {
     if (input.mask) options.mask = [input.mask];
     if (d.metric && d.metric !== "log") options.metric = [d.metric];
     if (d.robust && d.robust !== "none") options.robust = [d.robust];
-    Object.assign(fit, { file, log_rms: d.residuals.log_rms, converged: d.solver?.termination === "converged", warnings: d.warnings ?? [], next: (d.next ?? []).slice(0, 2), left_out: input.mask ?? "", command: command ?? command_of(file, null, d.model, options) });
+    Object.assign(fit, { file, log_rms: d.residuals.log_rms, converged: d.solver?.termination === "converged", warnings: d.warnings ?? [], next: (d.next ?? []).slice(0, 2), meets: Boolean(d.misfit?.tested && !d.misfit.told && !d.warnings?.length), left_out: input.mask ?? "", command: command ?? command_of(file, null, d.model, options) });
   }
   documents.set(id, text);
   return { name, spec: d.model, values, channels, fit: said || d.residuals || Object.keys(parameters).length ? fit : null };
@@ -151,7 +151,7 @@ const saver = (id, name) => (documents.has(id) ? [make("div", { class: "controls
 const line = (kind, said) => make("p", {}, make("b", {}, `${kind}: `), said);
 /// Advice that is an option, and no matter of taste as the metric is, is taken at a press.
 function advice(said) {
-  const [, option, value] = /^--(model|bounds|mask|bins) ('[^']*'|[^\s:]+)/.exec(said) ?? [], p = line("Try", said);
+  const [, option, value] = /^--(model|bounds|mask|bins|robust) ('[^']*'|[^\s:]+)/.exec(said) ?? [], p = line("Try", said);
   if (option && can_fit && fit_pair()) p.append(" ", Object.assign(make("button", {}, "Do it"), { onclick: carefully(() => {
     if (option === "model") return fit_table(value);
     $("words").value = `${$("words").value} --${option} ${value}`.trim();
@@ -161,7 +161,7 @@ function advice(said) {
 }
 function fit_panel({ about, changed, fit }) {
   const head = `${about.name} leaves a typical factor of ${times(fit.log_rms)} on ${fit.file}${fit.left_out ? `, without ${fit.left_out}` : ""}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
-  return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...fit.next.map(advice), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
+  return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...(fit.meets ? [make("p", {}, "What is left is no more than the table's own noise.")] : []), ...fit.next.map(advice), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
 }
 function comparison_panel(d) {
   const number = (x, digits = 3) => (Number.isFinite(x) ? Number(x.toPrecision(digits)).toString() : "–"), factor = (x) => (Number.isFinite(x) ? times(x) : "–");
@@ -188,7 +188,8 @@ async function fit_table(model) {
   const [table, item] = some_pair(), words = asked(), spec = model ?? words.model?.join(" ") ?? item.about.spec, command = command_of(table.name, table.data.columns, spec, words);
   const { document: text, optimum } = JSON.parse(await ask({ do: "fit", file: table.name, options: { ...words, model: [spec] } }, await files_of(table)));
   const other = JSON.parse(text).input?.sha256, own = table.sha256;
-  take_fit(fitted(text, "", table, optimum, new_id(), command), item);
+  const found = fitted(text, "", table, optimum, new_id(), command);
+  take_fit(found, found.channels.length === item.channels.length ? item : null);  // beside it, where the fit is of some channels
   say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.` : "Fitted.");
 }
 async function compare_models() {
@@ -204,8 +205,14 @@ async function compare_models() {
 
 /// Reads files that were dropped or chosen: tables with their side files, and documents of fits.
 async function read_files(list) {
-  const sides = new Map();
+  const sides = new Map(), names = new Set(list.map((f) => f.name));
   for (const f of list) if (f.name.endsWith(".gonio.json")) sides.set(f.name.slice(0, -11), await f.text());
+  for (const [name, side] of sides) {
+    if (names.has(name)) continue;
+    const table = tables.find(({ data }) => data.name === name);
+    if (!table) throw new Error(`${name}.gonio.json says how ${name} is read: drop both at once.`);
+    table.data.side = side, say(`${name} is fitted as ${name}.gonio.json says from now on.`);
+  }
   for (const f of list) {
     if (f.name.endsWith(".gonio.json")) continue;
     if (f.name.endsWith(".json") && f.size < 1e7) {
@@ -226,7 +233,7 @@ async function read_table(source) {
   const d = JSON.parse(await ask({ do: "read", file: source.name, options: asked() }, files));
   show_columns(source, d);
   if (!d.table) throw new Error(d.error);
-  const table = hold_table({ ...d.table, ...source, dropped: true });
+  const table = hold_table({ ...d.table, ...source, inspection: d.inspection, dropped: true });
   tables.push(table), items.unshift(table), active = Math.min(active + 1, items.length - 1);
   if (!items.some((item) => is_model(item) && item.channels.length === table.channels.length)) {
     const item = bind("", usual, "", table.channels);
@@ -287,6 +294,8 @@ const to_text = (bytes) => { let s = ""; for (let i = 0; i < bytes.length; i += 
 function connect_fitting() {
   if (!can_fit) return;
   $("drop").hidden = $("save-page").hidden = false;
+  const inspected = tables.find(({ data }) => data.inspection);  // of a page that was saved
+  if (inspected) show_inspection(inspected.data.inspection);
   $("fit").onclick = carefully(() => fit_table()), $("choose").onclick = carefully(compare_models), $("cancel").onclick = () => job?.cancel();
   $("save-page").onclick = carefully(save_page);
   $("file").onchange = carefully(async () => { const list = [...$("file").files]; $("file").value = ""; await read_files(list); });
