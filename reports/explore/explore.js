@@ -297,7 +297,8 @@ function slider(item, p, c) {
     track.append(bar);
   }
   const said = [c === 0 ? p.meaning : "", words].filter(Boolean).join("; ");
-  return Object.assign(make("div", { class: "slider" }, make("label", { for: id }, name), track, exact, said || p.roughness ? make("small", {}, root, said) : ""), { show: () => document.activeElement !== range && show() });
+  if (said) range.setAttribute("aria-describedby", `said-${p.first + c}`);
+  return Object.assign(make("div", { class: "slider" }, make("label", { for: id }, name), track, exact, said || p.roughness ? make("small", { id: `said-${p.first + c}` }, root, said) : ""), { show: () => document.activeElement !== range && show() });
 }
 
 /// Whole models that are shipped, metals, and a few surfaces to begin with: name, spec, settings.

@@ -152,7 +152,7 @@ const line = (kind, said) => make("p", {}, make("b", {}, `${kind}: `), said);
 /// Advice that is an option, and no matter of taste as the metric is, is taken at a press.
 function advice(said) {
   const [, option, value] = /^--(model|bounds|mask|bins|robust) ('[^']*'|[^\s:]+)/.exec(said) ?? [], p = line("Try", said);
-  if (option && can_fit && fit_pair()) p.append(" ", Object.assign(make("button", {}, "Do it"), { onclick: carefully(() => {
+  if (option && can_fit && fit_pair()) p.append(" ", Object.assign(make("button", { "aria-label": `Do it: ${option} ${value}` }, "Do it"), { onclick: carefully(() => {
     if (option === "model") return fit_table(value);
     $("words").value = `${$("words").value} --${option} ${value}`.trim();
     return fit_table();
@@ -160,7 +160,7 @@ function advice(said) {
   return p;
 }
 function fit_panel({ about, changed, fit }) {
-  const head = `${about.name} leaves a typical factor of ${times(fit.log_rms)} on ${fit.file}${fit.left_out ? `, without ${fit.left_out}` : ""}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
+  const head = `Between ${about.name} and ${fit.file}${fit.left_out ? `, without ${fit.left_out},` : ""} lies a typical factor of ${times(fit.log_rms)}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
   return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...(fit.meets ? [make("p", {}, "What is left is no more than the table's own noise.")] : []), ...fit.next.map(advice), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
 }
 function comparison_panel(d) {
@@ -190,6 +190,7 @@ async function fit_table(model) {
   const other = JSON.parse(text).input?.sha256, own = table.sha256;
   const found = fitted(text, "", table, optimum, new_id(), command);
   take_fit(found, found.channels.length === item.channels.length ? item : null);  // beside it, where the fit is of some channels
+  if (innerWidth < 700) $("fitted").scrollIntoView({ block: "nearest" });
   say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.` : "Fitted.");
 }
 async function compare_models() {
@@ -287,7 +288,7 @@ async function save_page() {
   const s = JSON.parse(state()), ids = [compared?.id, ...items.map((item) => item.fit?.id)].filter((id) => documents.has(id)), copy = pristine.cloneNode(true);
   for (const one of s.i) if (one.t !== undefined) one.t = kept_tables.indexOf(tables[one.t]);
   copy.querySelector("#explored").textContent = JSON.stringify({ items: list, state: JSON.stringify(s), documents: Object.fromEntries(ids.map((id) => [id, documents.get(id)])) }).replaceAll("<", "\\u003c");
-  save("gonio.html", `<!doctype html>\n${copy.outerHTML}\n`, "text/html");
+  save("explored.html", `<!doctype html>\n${copy.outerHTML}\n`, "text/html");
 }
 const most_file = 1 << 24;
 const to_text = (bytes) => { let s = ""; for (let i = 0; i < bytes.length; i += 32768) s += String.fromCharCode(...bytes.subarray(i, i + 32768)); return btoa(s); };
