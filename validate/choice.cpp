@@ -76,8 +76,10 @@ struct Description<Choice::Domain> {
   static void check(Choice::Domain& d, Demand expect) {
     const auto within = [&](const char* key, const std::optional<Choice::Ends>& r, double low,
                             double high) {
-      expect(!r || ((*r)[0] >= low && (*r)[0] <= (*r)[1] && (*r)[1] <= high), key,
-             fmt::format("[low, high] within {:g} to {:g}", low, high));
+      if (r && !((*r)[0] >= low && (*r)[0] <= (*r)[1] && (*r)[1] <= high))
+        expect(false, key,
+               fmt::format("[low, high] within {:g} to {:g}, not [{:g}, {:g}]", low, high, (*r)[0],
+                           (*r)[1]));
     };
     within("roughness", d.roughness, 1e-3, 1);
     within("mu", d.mu, 1e-4, 1);

@@ -166,13 +166,22 @@ std::vector<std::vector<double>> albedos(const Shipped& side,
 BudgetCheck check_albedo_error(const Choice& c,
                                const Effort& effort,
                                const std::function<void(double)>& done) {
-  const auto error =
-      against_reference(c, effort, [](const std::vector<double>& a, const std::vector<double>& b) {
-        double most = 0;
-        for (std::size_t k = 0; k < a.size(); ++k) most = worse(most, std::abs(a[k] - b[k]));
-        return most;
-      });
-  return worst_checked(c, "albedo_error", *c.budgets.albedo_error, effort, error, done);
+  const auto largest = [](const std::vector<double>& a, const std::vector<double>& b) {
+    double most = 0;
+    for (std::size_t k = 0; k < a.size(); ++k)
+      if (const double off = a[k] - b[k]; worse(std::abs(most), std::abs(off)) != std::abs(most))
+        most = off;
+    return most;
+  };
+  const auto error = against_reference(
+      c, effort, [&](const auto& a, const auto& b) { return std::abs(largest(a, b)); });
+  const auto w = worst(c, effort, on_grid(c, effort, error, done), error);
+  auto out = checked(c, "albedo_error", *c.budgets.albedo_error, w);
+  if (out.holds) return out;
+  const auto off = against_reference(c, effort, largest)(w.at.substance, w.at.roughness,
+                                                         std::span(&w.at.mu, 1))[0];
+  out.words = off < 0 ? "The model is too dark" : "The model is too bright";
+  return out;
 }
 
 BudgetCheck check_delta_e(const Choice& c,

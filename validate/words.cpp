@@ -70,7 +70,7 @@ std::string place_text(const BudgetCheck& b) {
   const auto add = [&](const std::string& part) { text += (text.empty() ? "" : ", ") + part; };
   for (const auto& [name, value] : b.at)
     add(name == "theta" ? fmt::format("{:.3g}° of incidence", value)
-                        : fmt::format("{} {:.4g}", name, value));
+                        : fmt::format("{} {:.4g}", name == "mu" ? "cosine" : name, value));
   if (!b.substance.empty()) add(b.substance);
   return text;
 }

@@ -20,7 +20,7 @@ std::string with_spread(double value, double spread) {
   const int decimals = std::clamp(static_cast<int>(digit), 0, 3);
   return fmt::format("{:.{}f} ± {:.{}f}", value, decimals, spread, decimals);
 }
-std::string ns_text(const Timing& t) {
+std::string time_text(const Timing& t) {
   return with_spread(t.ns, t.spread_ns) + " ns";
 }
 /// Error in words: what rounding alone leaves has no figure.
@@ -63,20 +63,22 @@ class Sayings {
   }
   void say(std::string sentence) { said_.say(std::move(sentence)); }
 
-  /// Sentence on the time of exact Smith over Schlick's in a whole model.
+  /// Sentence on the time of exact Smith over Schlick's: of the term in cache, as the index decides by, and of a whole model where
+  /// memory is the limit.
   void headline() {
-    const auto* const from = "ggx/schlick_ggx.direct/schlick";
-    const auto* const to = "ggx/smith_ggx.correlated/schlick";
-    const auto *cache = between(from, to, best_, "cache"),
-               *streaming = between(from, to, best_, "streaming");
+    const auto *cache = between("masking.schlick_ggx.direct", "masking.smith_ggx.correlated", best_,
+                                "cache"),
+               *streaming = between("ggx/schlick_ggx.direct/schlick",
+                                    "ggx/smith_ggx.correlated/schlick", best_, "streaming");
     if (!cache || !streaming) return;
     // Of what is less, where memory is the limit, some runs find nothing: that it is no more holds
     // in all of them.
     const auto text = [](const CostSwitch& s) {
-      return s.differs && s.ns > 0 ? fmt::format("{:.2f} ns more", s.ns) : std::string("no more");
+      return s.differs && s.ns > 0 ? ns_text(s.ns) + " more" : std::string("no more");
     };
     said_.headline = fmt::format(
-        "Exact Smith in place of Schlick's k costs a GGX sample {} in cache, and {} in {}.",
+        "Exact Smith in place of Schlick's k costs {} for a sample in cache; a whole GGX model "
+        "costs {} in {}.",
         text(*cache), text(*streaming), long_columns(r_.options));
   }
   const CostSwitch* between(std::string_view from,
@@ -164,7 +166,7 @@ class Sayings {
     if (!fused || !composed || !by_hand || !far || !roots || !columns) return;
     say("GGX with height-correlated Smith and Schlick takes {} of a float sample in cache, fused "
         "into one loop.",
-        ns_text(fused->time));
+        time_text(fused->time));
     say("Written by hand it takes {:.2f} ns, composed of its terms at run time {:.2f} ns; only its "
         "division and two roots take {:.2f} ns.",
         by_hand->time.ns, composed->time.ns, roots->time.ns);

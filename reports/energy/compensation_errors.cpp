@@ -97,7 +97,7 @@ std::vector<CompensationError> compensation_errors(const std::vector<EnergyMater
         ++(is_gold ? gold : n);
         if (is_gold || std::abs(off) <= std::abs(c.worst)) continue;
         c.worst = off;
-        c.worst_at = fmt::format("{}, roughness {:g}, mu {:g}", m.name, at.roughness, at.mu);
+        c.worst_at = fmt::format("{}, roughness {:g}, cosine {:g}", m.name, at.roughness, at.mu);
       }
     }
     c.rms = n ? std::sqrt(squares / static_cast<double>(n)) : no_value;

@@ -164,7 +164,7 @@ std::vector<AlbedoForm> albedo_form_errors() {
         f.rms += off * off / static_cast<double>(truth.size());
         if (std::abs(off) <= std::abs(f.worst)) continue;
         f.worst = off;
-        f.worst_at = fmt::format("roughness {:.2f}, mu {:g}", std::sqrt(alpha[a]), mu[m]);
+        f.worst_at = fmt::format("roughness {:.2f}, cosine {:g}", std::sqrt(alpha[a]), mu[m]);
       }
     f.rms = std::sqrt(f.rms);
     out.push_back(f);

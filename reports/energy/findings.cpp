@@ -50,14 +50,14 @@ void of_white(Findings& to, const EnergyRows& r) {
   if (!f) return;
   to.say(fmt::format(
       "White GGX under height-correlated Smith loses a tenth of the light {}, seen head on. Seen "
-      "at mu = 0.1 it does {}.",
+      "at cosine 0.1 it does {}.",
       where_lost(f->crossings, 1, tenth), where_lost(f->crossings, 0.1, tenth)));
   const auto& rough = f->averages.back();
   for (const auto& c : f->crossings)
     if (c.mu == 0 && c.share == 0.05 && !c.ranges.empty())
       to.headline = fmt::format(
-          "Rough metal goes dark: one bounce under GGX loses {} of white light from roughness "
-          "{:.2f} on, and {} where it is roughest.",
+          "Rough metal goes dark: one bounce under GGX loses {} or more of white light from "
+          "roughness {:.2f} on, and {} where it is roughest.",
           percent(c.share), c.ranges[0].from, percent(1 - rough.albedo, 2));
   const auto normal =
       std::ranges::find_if(f->rows, [](const auto& at) { return at.roughness == 1 && at.mu == 1; });
@@ -222,15 +222,15 @@ void of_split_sum(Findings& to, const EnergyRows& r) {
                     rounded_up(head_on->delta_e), light(*head_on), head_on->roughness));
     if (const auto* side = most(1, 0.5))
       to.say(
-          fmt::format("Seen at mu = 0.5, where the lobe is no longer round, it is up to {}, "
+          fmt::format("Seen at cosine 0.5, where the lobe is no longer round, it is up to {}, "
                       "under {}.",
                       rounded_up(side->delta_e), light(*side)));
-    to.say(fmt::format("Seen at mu = 0.1 it is up to {}, under {}.", rounded_up(grazing->delta_e),
+    to.say(fmt::format("Seen at cosine 0.1 it is up to {}, under {}.", rounded_up(grazing->delta_e),
                        light(*grazing)));
   }
   if (const auto* plastic = most(0.04, 0.1))
     to.say(
-        fmt::format("Black plastic of F0 = 0.04, seen at mu = 0.1, changes by a mean ΔE2000 of "
+        fmt::format("Black plastic of F0 = 0.04, seen at cosine 0.1, changes by a mean ΔE2000 of "
                     "{} at most.",
                     rounded_up(plastic->delta_e)));
   if (r.light.costs.size() == 2)
@@ -263,7 +263,8 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
   }
   to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
            fmt::format("{} forms exceed it", of_all(makers, makes.size())),
-           fmt::format("{} forms reflect more light than arrives somewhere.{} The others reflect "
+           fmt::format("{} forms reflect more light than arrives, at some roughness and angle.{} "
+                       "The others reflect "
                        "{} of it at most.",
                        of_all(makers, makes.size()), words, rounded_up(largest, 4)));
 }

@@ -34,6 +34,10 @@ std::string short_text(double x) {
 std::string at_most(double x, int digits) {
   return "≤ " + rounded_up(std::max(x, x > 0 ? least_read : x), digits);
 }
+std::string ns_text(double ns) {
+  const double size = std::abs(ns);
+  return fmt::format("{:.{}f} ns", size, size < 0.995 ? 2 : size < 9.95 ? 1 : 0);
+}
 std::string number_or_none(std::size_t n) {
   return n == 0 ? "none" : fmt::format("{}", n);
 }
@@ -42,10 +46,12 @@ std::string of_all(std::size_t n, std::size_t all) {
 }
 
 std::string place(double roughness, double mu) {
-  return fmt::format("roughness {:g}, mu {:g}", roughness, mu);
+  return fmt::format("roughness {:g}, cosine {:g}", roughness, mu);
 }
 std::string at_angle(double mu) {
-  return mu == 0 ? "on average" : mu == 1 ? "at normal incidence" : fmt::format("at mu = {:g}", mu);
+  return mu == 0   ? "on average"
+         : mu == 1 ? "at normal incidence"
+                   : fmt::format("at cosine {:g}", mu);
 }
 std::string range_text(double from, double to, const std::string& word) {
   if (to >= 1) return fmt::format("from {}{:.2f} on", word, from);

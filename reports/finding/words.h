@@ -22,13 +22,15 @@ std::string percent_at_most(double share, int digits = 2);
 std::string short_text(double x);
 /// "≤ 2.5" of 2.41: a bound as it is read, never below the number; of what is smaller "≤ 0.0001".
 std::string at_most(double, int digits = 2);
+/// "0.10 ns", "7.7 ns", "13 ns": one rounding of a time's size, so that times beside each other agree.
+std::string ns_text(double ns);
 /// "2", "none"
 std::string number_or_none(std::size_t);
 /// "2 of 39", "none of 100"
 std::string of_all(std::size_t n, std::size_t all);
-/// "roughness 0.3, mu 0.5"
+/// "roughness 0.3, cosine 0.5"
 std::string place(double roughness, double mu);
-/// "at normal incidence", "at mu = 0.5", of mu 0 "on average"
+/// "at normal incidence", "at cosine 0.5", of mu 0 "on average"
 std::string at_angle(double mu);
 /// "from 0.42 on", "from 0.57 to 0.80": a range within [0, 1].  \param word  before the first number
 std::string range_text(double from, double to, const std::string& word = {});

@@ -57,13 +57,6 @@ std::string id_of(std::string_view form) {
 
 // --- Words ---
 
-/// "0", "0.26", "3.2", "13"
-std::string short_number(double x) {
-  return fmt::format("{:.{}g}", x, x < 9.95 ? 2 : x < 99.5 ? 2 : 3);
-}
-std::string delta(double x) {
-  return "ΔE " + short_number(x);
-}
 /// "ΔE ≤ 2.5": a bound, never below the number.
 std::string delta_at_most(double x) {
   return "ΔE " + at_most(x);
@@ -76,11 +69,6 @@ bool is_exact(const Candidate& c) {
 /// Cost of the cheap form.
 constexpr std::string_view no_more = "none (the usual shortcut)";
 
-/// "0.10 ns", "7.7 ns", "13 ns": one rounding, so that times beside each other agree.
-std::string ns_text(double ns) {
-  const double size = std::abs(ns);
-  return fmt::format("{:.{}f} ns", size, size < 0.995 ? 2 : size < 9.95 ? 1 : 0);
-}
 /// "+0.40 ns", or that it takes no more.
 std::string cost_text(const Candidate& taken, const Candidate& cheap) {
   if (&taken == &cheap || taken.form == cheap.form) return std::string(no_more);
@@ -247,16 +235,15 @@ void fresnel_of(std::vector<Decision>& to,
   d.take_id = id_of(taken->form);
   d.cost = cost_text(*taken, *cheap);
   const auto worst = std::ranges::max_element(materials, {}, &Shown::delta_e);
-  const auto usual =
-      std::ranges::find(materials, kind == "metal" ? "iron" : "IOR 1.5", &Shown::material);
-  const auto& told = usual == materials.end() ? *worst : *usual;
+  const auto glass = std::ranges::find(materials, "IOR 1.5", &Shown::material);
+  const auto& example = glass == materials.end() ? *worst : *glass;
   if (taken == cheap) {
     d.error = delta_at_most(taken->error);
     d.unless = seen_side_by_side(f, kind, materials);
   } else {
     d.error = fmt::format("{} (Schlick: {} for {})",
                           is_exact(*taken) ? "none" : delta_at_most(taken->error),
-                          delta(told.delta_e), material_text(told.material));
+                          delta_at_most(example.delta_e), material_text(example.material));
     const double head_on = std::ranges::max(materials, {}, &Shown::head_on).head_on;
     if (is_clearly_cheaper(*cheap, *taken))
       d.unless = head_on <= just_seen
@@ -352,8 +339,9 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), from(*taken));
-    d.error += fmt::format(" (one bounce: {}{})", short_number(without),
-                           taken->error > side_by_side ? "; no form leaves less" : "");
+    d.error += fmt::format(" ({}one bounce: {})",
+                           taken->error > side_by_side ? "the least that a form leaves; " : "",
+                           at_most(without));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
   }
@@ -418,13 +406,15 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   if (taken->form != cheap_id && own)
     d.error += below_lobe ? fmt::format("; reflects at most {} of the light (Lambert: {})",
                                         made(*form_of(taken->form)), made(*lambert))
-                          : fmt::format(" ({}Lambert: ΔE {})",
+                          : fmt::format(" ({}Lambert: {})",
                                         is_exact(*taken) ? "it is the reference; " : "",
-                                        short_number(*own));
+                                        delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("energy gain is acceptable: {}, {}", in_text(nearer->form),
-                           delta_at_most(nearer->error));
+    d.unless = fmt::format("{}energy gain is acceptable: {}, {}, up to {} of the light",
+                           most_light(*form_of(taken->form)) > no_light_made ? "more " : "",
+                           in_text(nearer->form), delta_at_most(nearer->error),
+                           made(*form_of(nearer->form)));
   else if (!below_lobe && taken->form != cheap_id)
     d.unless = "the surface is smooth: Lambert";
   to.push_back(std::move(d));
@@ -454,8 +444,8 @@ void precision(std::vector<Decision>& to, const Facts& f) {
   }
   to.push_back({"Precision: D V F NoL of GGX in half",
                 fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
-                fmt::format("≤ {} on metal up to {:.0f}°, by search (F0 from {:g}; light and view; "
-                            "no proof)",
+                fmt::format("≤ {} on metal, light and view up to {:.0f}° (F0 of {:g} or more; "
+                            "a search found no larger error, which is no proof)",
                             percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
                 fmt::format("smoother surfaces render as roughness {}",
                             rounded_up(std::sqrt(*half->safe_from))),

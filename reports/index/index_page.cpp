@@ -4,6 +4,7 @@
 #include <ctime>
 #include <utility>
 
+#include "base/rounded.h"
 #include "base/text.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
@@ -160,9 +161,9 @@ void add_report(
   front.curves.resize(std::min<std::size_t>(front.curves.size(), 2));
   if (front.curves.size() == 2 && !front.curves[1].dashed) front.curves.pop_back();
   front.note.clear();
-  front.y.label = "RMS error of G2 over the audit's directions";
+  front.y.label = "RMS error of G₂";
   front.curves[0].name = "masking forms for GGX";
-  if (front.curves.size() == 2) front.curves[1].name = "the front";
+  if (front.curves.size() == 2) front.curves[1].name = "best trade-offs";
   to.front.figures = {std::move(front)};
 }
 
@@ -194,23 +195,22 @@ Cell with_aside(const std::string& text, std::string look = {}, std::string titl
 Part lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
   std::string text =
-      "The error that each shortcut leaves against exact Fresnel, exact Smith masking and all "
-      "bounces of light. "
-      "The cost is the time that one float sample takes beyond the usual shortcut: Schlick's k, "
-      "Schlick's Fresnel, GGX, one bounce, Lambert";
+      "“Error left” compares each form with exact Fresnel, exact Smith masking and all bounces of "
+      "light. “Costs” is the time that a float sample takes beyond the usual shortcut. The usual "
+      "shortcuts are Schlick's k, Schlick's Fresnel, GGX, one bounce and Lambert.";
   if (m && m->model_ns)
-    text += fmt::format("; a whole GGX highlight takes {} ns", significant(*m->model_ns, 2));
-  text += m ? fmt::format(". Measured on {} with {} from cache, {} setting.",
+    text += fmt::format(" A whole GGX highlight takes {} ns.", significant(*m->model_ns, 2));
+  text += m ? fmt::format(" Measured on {} with {} from cache, {} setting.",
                           m->cpu.empty() ? "this machine" : m->cpu, m->isa, setting_of(i))
-            : fmt::format(". {} setting.", page::capital(setting_of(i)));
+            : fmt::format(" {} setting.", page::capital(setting_of(i)));
   if (m && m->others && *m->others >= 0.25)
     text += fmt::format(
         " The machine was busy: other programs took {} of {} processors, so times may be too long.",
         plain(*m->others, 2), m->threads);
   if (!i.facts.fresnel.empty())
     text += fmt::format(
-        " ΔE is CIEDE2000: up to {} nobody sees it, up to {} only side by side; “{}” has the "
-        "sources.",
+        " ΔE is CIEDE2000: hardly anybody sees less than {}, and up to {} it shows only side by "
+        "side; “{}” has the sources.",
         plain(just_seen), plain(side_by_side), fresnel_title);
   return Prose{text, "lead"};
 }
@@ -240,7 +240,7 @@ Section fresnel(const ReportIndex& i) {
         return f.material == m && name_of_form(f.form) == t.head[k].name;
       });
       row.push_back(at == grid.end() ? Cell{"–", {}, {}, "unknown"}
-                                     : Cell{fmt::format("{:.1f}", at->delta_e),
+                                     : Cell{rounded_up(at->delta_e),
                                             {},
                                             {},
                                             at->delta_e <= just_seen      ? "unseen"
@@ -251,14 +251,15 @@ Section fresnel(const ReportIndex& i) {
   return {
       fresnel_title,
       "Greatest ΔE2000 of the rough surface under even light, over roughness and 19 views, from "
-      "cosine 0.1 to 1.",
+      "cosine 0.1 to 1; rounded up.",
       {t,
        Markup{fmt::format(
            R"(<p class="small key-of"><span class="unseen">unseen, to {0}</span><span class="beside">side by side, to {1}</span><span class="shows">seen</span><span class="unknown">– not computed</span></p>)",
            plain(just_seen), plain(side_by_side))},
-       Prose{fmt::format("Up to ΔE2000 {0} nobody sees a difference: its unit is scaled to that "
-                         "(CIE 142-2001). Up to {1} it is seen only side by side: observers could "
-                         "just see that in CIELAB (Mahy, Van Eycken and Oosterlinck 1994).",
+       Prose{fmt::format("ΔE2000 is scaled so that {0} is about the smallest visible difference "
+                         "(CIE 142-2001). Up to {1} a difference is seen only side by side: "
+                         "observers could just see that in CIELAB (Mahy, Van Eycken and "
+                         "Oosterlinck 1994).",
                          plain(just_seen), plain(side_by_side)),
              "small muted"}},
       "fresnel"};
@@ -269,7 +270,7 @@ Section cards(const ReportIndex& i) {
   for (const auto& r : i.reports) {
     const auto href = page_of(r.name);
     html += fmt::format(
-        R"(<article class="card"><a href="{0}">{1}</a><h3><a href="{0}">{2}</a></h3><p>{3}</p><p class="small muted"><a href="{4}.json">JSON</a> · <a href="{4}.csv">CSV</a> · {5} · {6}</p></article>)",
+        R"(<article class="card"><a href="{0}">{1}</a><h3><a href="{0}">{2}</a></h3><p>{3}</p><p class="small muted"><a href="{4}.json">JSON</a> · <a href="{4}.csv">CSV</a> · {5} · made in {6}</p></article>)",
         href, r.first.figures.empty() ? "" : page_small(r.first.figures[0], 260, 96),
         markup_text(capital(std::string(r.what))), markup_text(sentence_of(r)), r.name,
         r.first.figures.empty() ? many(r.pictures, "picture")
@@ -317,9 +318,10 @@ std::string index_page_html(const ReportIndex& i) {
   if (!i.front.figures.empty())
     out.sections.push_back({"What masking's accuracy costs",
                             "Error of G₂ against height-correlated Smith, over the time of a "
-                            "sample: on the line, nothing is both faster and nearer. The error is "
-                            "the RMS over the directions and roughnesses of the audit; the row "
-                            "on masking takes cosines evenly, so the figures differ.",
+                            "sample. No form is both faster and more accurate than one on the "
+                            "dashed line. The error is an RMS over a grid of directions and "
+                            "widths. The row on masking averages evenly over both cosines and "
+                            "roughness, so its figures differ.",
                             {page::Shown{i.front.figures[0].family, {}, 440}},
                             "time"});
   out.sections.push_back(cards(i));

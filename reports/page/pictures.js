@@ -76,7 +76,7 @@ function show_part(plot, from, to) {
   yt.innerHTML = ys.map(([y, text]) => `<text x="-7" y="${(y - top) / (bottom - top) * d.height + 4}">${text}</text>`).join("");
   d.inside.querySelector(".g").setAttribute("d", xs.map(([x]) => `M${x} ${top}V${bottom}`).join("") + ys.map(([y]) => `M${from} ${y}H${to}`).join(""));
   d.inside.querySelector(".ax").setAttribute("d", `M${from} ${top}V${bottom}H${to}`);
-  plot.querySelector(".labels")?.setAttribute("visibility", whole && top === 0 ? "visible" : "hidden");
+  for (const g of plot.querySelectorAll(".labels")) g.setAttribute("visibility", whole && top === 0 ? "visible" : "hidden");
 }
 const show_whole = (plot) => show_part(plot, 0, drawing_of(plot).width);
 /// A place of the drawing under a pointer.

@@ -9,6 +9,7 @@
 #include "base/json/describe.h"
 #include "base/quantile.h"
 #include "base/text.h"
+#include "brdf/model/model.h"
 #include "brdf/model/model_names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
@@ -49,6 +50,7 @@ struct Row {
   double value, error, low, high, limit, truth;
   ParameterStatus status;
   std::string reason;
+  Range range;  ///< where the formula is defined; NaN where that is not known
 };
 /// What a synthesized table was made with; alpha and roughness from each other, alpha = roughness².
 double truth_of(const gonio::Table& t, const std::string& name, std::size_t c) {
@@ -68,14 +70,19 @@ double truth_of(const gonio::Table& t, const std::string& name, std::size_t c) {
 }
 std::vector<Row> rows_of(const FitDocument& d, const gonio::Table& t) {
   std::vector<Row> out;
-  for (const auto& p : d.parameters)
+  const auto model =
+      d.model.empty() ? Model{} : compose(d.model, std::max<std::size_t>(1, d.channels.size()));
+  for (const auto& p : d.parameters) {
+    const auto* of_model = model.find(p.name);
+    const auto range = of_model ? of_model->about->legal : Range{no_value, no_value};
     for (std::size_t c = 0; c < p.value.size(); ++c) {
       const bool several = p.value.size() > 1;
       out.push_back({p.name, several ? p.name + "." + d.channels[c] : p.name, c == 0, p.value[c],
                      p.std_error[c], p.ci95_low[c], p.ci95_high[c],
                      c < p.limit.size() ? p.limit[c] : no_value, truth_of(t, p.name, c),
-                     p.status[c], c < p.reason.size() ? p.reason[c] : ""});
+                     p.status[c], c < p.reason.size() ? p.reason[c] : "", range});
     }
+  }
   return out;
 }
 
@@ -211,6 +218,14 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
     return fmt::format("{}\u202f{}", r.status == ParameterStatus::upper_limit ? "≤" : "≥",
                        significant(r.limit));
   };
+  // That an interval ends where the formula does; 0 says that by itself.
+  const auto cut = [&](const Row& r) -> std::string {
+    const bool low = r.low <= r.range.low, high = r.high >= r.range.high;
+    return low && high               ? "its whole range"
+           : high                    ? plain(r.range.high) + " is the end of its range"
+           : low && r.range.low != 0 ? plain(r.range.low) + " is the end of its range"
+                                     : "";
+  };
   const auto drawing = [&](const Row& r) -> std::string {
     if (known(r.limit) && r.limit > 0) {
       const bool upper = r.status == ParameterStatus::upper_limit;
@@ -232,12 +247,13 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
     auto& row = t.rows.emplace_back();
     t.row_looks.emplace_back(r.first ? "first" : "");
     row.emplace_back("`" + r.label + "`");
-    row.emplace_back(known(r.value) ? number(r, r.value) : known(r.limit) ? limit(r) : "–");
+    row.emplace_back(known(r.limit) ? limit(r) : known(r.value) ? number(r, r.value) : "–");
     row.emplace_back(known(r.error) ? significant(r.error, 2) : "–");
     row.emplace_back(known(r.limit) ? limit(r)
                      : known(r.low) && known(r.high)
                          ? fmt::format("{} … {}", number(r, r.low), number(r, r.high))
-                         : "–");
+                         : "–",
+                     "", known(r.limit) ? "" : cut(r));
     row.push_back({std::string(status_words(name_of(r.status))), "", r.reason,
                    fmt::format("status {}", name_of(r.status))});
     if (with_truth) {
@@ -250,16 +266,29 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
     row.emplace_back();
     row.back().mark = drawing(r);
   }
+  const bool has_arrow = std::ranges::any_of(rows, [&](const Row& r) {
+    return known(r.limit) ||
+           (bounded(r) && std::max(-relative(r, r.low), relative(r, r.high)) > reach);
+  });
+  const bool leaves_truth = std::ranges::any_of(rows, [&](const Row& r) {
+    return std::abs(known(r.limit) ? r.truth / r.limit - 1 : relative(r, r.truth)) > reach;
+  });
   Section out{
       "Parameters",
       fmt::format(
-          "Values are written to the second digit of their standard error. Intervals: "
-          "{}{}. In the pictures the dot is the value, the bar its interval. An arrow marks an "
-          "interval that leaves the picture, or a limit on one side.{}",
-          d.intervals, d.clusters > 0 ? fmt::format(", {} clusters", count_text(d.clusters)) : "",
-          with_truth ? " The table is synthetic: the orange tick is the value it was made with."
-                     : ""),
+          "Values are written to the second digit of their standard error. Intervals: {}{}.",
+          d.intervals, d.clusters > 0 ? fmt::format(", {} clusters", count_text(d.clusters)) : ""),
       {std::move(t)}};
+  out.parts.emplace_back(Prose{
+      fmt::format(
+          "In the pictures the dot is the value, the bar its interval.{}{}{}",
+          has_arrow ? " A blue arrow marks an interval that leaves the picture, or a limit on one "
+                      "side."
+                    : "",
+          with_truth ? " The table is synthetic: the orange tick is the value it was made with."
+                     : "",
+          leaves_truth ? " An orange arrow says that this lies outside the picture." : ""),
+      "small muted"});
   if (d.ratios) {
     page::Table ratios{columns("|>ratio|>95 % interval"), {}, "scroll"};
     for (const auto& r : *d.ratios)
@@ -286,6 +315,8 @@ std::string fit_page_html(const FitDocument& d,
   const auto file = file_name(d.input_path);
   const auto rows = rows_of(d, t);
   const double log_rms = d.residuals.log_rms;
+  std::size_t all_values = d.values_used;  // with those that a mask took out of the table
+  for (const auto& [why, n] : d.masked) all_values += n;
   const char* const does = d.misfit.told      ? "misses"
                            : d.misfit.too_few ? "may fit (too few to tell)"
                                               : "reproduces";
@@ -315,7 +346,7 @@ std::string fit_page_html(const FitDocument& d,
       {{"typical factor", factor_text(log_rms)},
        {"log RMS", log_rms_text(log_rms)},
        {"RMS", beside(significant(d.residuals.rms), "1/sr")},
-       {"values used", beside(count_text(d.values_used), "of " + count_text(h.values))},
+       {"values used", beside(count_text(d.values_used), "of " + count_text(all_values))},
        {"metric", beside(words(d.metric), d.robust == "none" ? "" : "robust: " + words(d.robust))},
        {"time", milliseconds_text(total)}},
       "facts"});

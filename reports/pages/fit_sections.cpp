@@ -19,13 +19,36 @@ using page::Group;
 std::string log_rms_text(double x) {
   return x < 0.3 ? percent(x) : significant(x);
 }
+namespace {
+
+/// Rows of the correlations that are of known parameters.
+std::vector<std::size_t> rows_of_known(const FitDocument& d) {
+  std::vector<std::size_t> rows;
+  for (std::size_t i = 0; i < d.free_names.size(); ++i) {
+    const auto& name = d.free_names[i];
+    const auto is_unknown = [&](const FittedParameter& p) {
+      for (std::size_t c = 0; c < p.status.size(); ++c)
+        if (p.status[c] == ParameterStatus::not_identifiable &&
+            (name == p.name || (c < d.channels.size() && name == p.name + "." + d.channels[c])))
+          return true;
+      return false;
+    };
+    if (std::ranges::none_of(d.parameters, is_unknown)) rows.push_back(i);
+  }
+  return rows;
+}
+
+}  // namespace
 std::optional<Tied> strongest_correlation(const FitDocument& d) {
   std::optional<Tied> best;
-  for (std::size_t i = 0; i < d.free_names.size(); ++i)
-    for (std::size_t j = 0; j < i; ++j)
+  const auto rows = rows_of_known(d);
+  for (const std::size_t i : rows)
+    for (const std::size_t j : rows) {
+      if (j >= i) break;
       if (const double rho = d.correlations[i][j];
           known(rho) && (!best || std::abs(rho) > std::abs(best->rho)))
         best = Tied{d.free_names[j], d.free_names[i], rho};
+    }
   return best;
 }
 std::string rho_text(double rho) {
@@ -188,16 +211,16 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   }
   const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
   const bool has_error = data != h.albedo.end() && data->error > 0;
-  std::string words = fmt::format(
-      "The fitted model reflects {} of the light at θ_i {}, the most of the angles compared{}.{}",
-      share(top), degrees_text(p.theta_i_deg[at]),
-      known(p.data_albedo[at][channel])
-          ? fmt::format("; the table there {}{}", share(p.data_albedo[at][channel]),
-                        has_error ? "\u202f±\u202f" + significant(data->error, 2) : "")
-          : "",
-      above(top) ? " Above 1 more light leaves than arrives: no surface "
-                   "does that."
-                 : "");
+  std::string words =
+      fmt::format("The fitted model reflects most at θ_i {}: {} of the light{}.{}",
+                  degrees_text(p.theta_i_deg[at]), share(top),
+                  known(p.data_albedo[at][channel])
+                      ? fmt::format("; the table reflects {}{}", share(p.data_albedo[at][channel]),
+                                    has_error ? "\u202f±\u202f" + significant(data->error, 2) : "")
+                      : "",
+                  above(top) ? " Above 1 more light leaves than arrives: no surface "
+                               "does that."
+                             : "");
   std::vector<double> ratios;
   for (const double r : p.peak_ratio)
     if (known(r)) ratios.push_back(r);
@@ -228,15 +251,13 @@ Section search(const FitDocument& d, Pictures& pictures) {
     return {title, "No width, exponent or index is free: nothing was searched.", {}};
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
-      "The other parameters were fitted anew at {} of {}, each on a part of the table, and the "
-      "best "
-      "places on all of it. {} than the fit: the best place has the cost {}, the fit {}.{} This is "
-      "a "
-      "search, not a proof.",
-      many(c.cells.size(), "place"), fmt::join(c.parameters, " and "),
-      lies ? "No place fits better" : "A place fits better", significant(c.lowest, 6),
+      "For each of {} of {}, the other parameters were fitted anew to a part of the table. The "
+      "best of these fits then saw all of it. {} is better than the fit above: the best has the "
+      "cost {}, the fit {}.{} This is a search, not a proof.",
+      many(c.cells.size(), c.parameters.size() == 1 ? "value" : "pair"),
+      fmt::join(c.parameters, " and "), lies ? "None" : "One", significant(c.lowest, 6),
       significant(d.cost, 6),
-      c.moves > 0 ? fmt::format(" The fit went on {} from a place that was better.",
+      c.moves > 0 ? fmt::format(" The fit above began anew from a better one {}.",
                                 many(static_cast<std::size_t>(c.moves), "time"))
                   : "");
   double least = c.thinned_cost;
@@ -310,21 +331,20 @@ Section search(const FitDocument& d, Pictures& pictures) {
 }
 
 Section confidence(const FitDocument& d, Pictures& pictures) {
-  if (d.free_names.empty()) return {};
+  const auto rows = rows_of_known(d);
   const auto tied = strongest_correlation(d);
   Group beside{"columns", {}};
-  if (d.free_names.size() > 1) {
+  if (rows.size() > 1) {
     FigureMap m = make_map("correlation");
     m.title = "Correlation of the estimates";
     m.value = "correlation";
     m.diverging = true;
     m.limit = 1;
-    m.x.names = d.free_names;
-    m.y.names = {d.free_names.rbegin(), d.free_names.rend()};
-    const std::size_t n = d.free_names.size();
-    for (std::size_t i = 0; i < n; ++i)
-      for (std::size_t j = n; j-- > 0;)
-        m.values.push_back(j < i ? no_value : i == j ? 1 : d.correlations[j][i]);
+    for (const std::size_t i : rows) m.x.names.push_back(d.free_names[i]);
+    m.y.names = {m.x.names.rbegin(), m.x.names.rend()};
+    for (const std::size_t i : rows)
+      for (auto j = rows.rbegin(); j != rows.rend(); ++j)
+        m.values.push_back(*j < i ? no_value : i == *j ? 1 : d.correlations[*j][i]);
     beside.parts.emplace_back(Shown{m.family});
     pictures.maps.push_back(std::move(m));
   }
@@ -340,13 +360,13 @@ Section confidence(const FitDocument& d, Pictures& pictures) {
         "",
         {Subtitle{fmt::format("If samples sat at the {} of their bins", s.other)}, std::move(t)}});
   }
-  return {
-      "How well the parameters are separated",
-      fmt::format("Condition number of the scaled normal matrix: {}.{}", significant(d.condition),
-                  tied ? fmt::format(" The pair hardest to tell apart: {} and {}, correlation {}.",
-                                     tied->a, tied->b, rho_text(tied->rho))
-                       : ""),
-      {std::move(beside)}};
+  if (beside.parts.empty()) return {};
+  return {"How well the parameters are separated",
+          tied ? fmt::format("The pair hardest to tell apart: {} and {}, correlation {}. 0 is "
+                             "best; near ±1 one makes up for the other.",
+                             tied->a, tied->b, rho_text(tied->rho))
+               : "",
+          {std::move(beside)}};
 }
 
 // --- Solver and input ----------------------------------------------------------------------------

@@ -24,6 +24,7 @@ struct Tied {
   std::string a, b;
   double rho;
 };
+/// The strongest among parameters that are known.
 std::optional<Tied> strongest_correlation(const FitDocument&);
 std::string rho_text(double rho);
 

@@ -65,10 +65,10 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
             ? fmt::format("under each of the {} lights", shown.size() == 3 ? "three" : "two")
             : "under " + shown[0]->light,
         delta_e_text(std::max(tail, 0.01)), part);
-  const auto half =
-      fmt::format("Half of the pixels are within ΔE2000 {} (most under {}), 95\u202f% within {}{}.",
-                  delta_e_text(most.median), w.light, delta_e_text(tail),
-                  &widest == &w ? "" : fmt::format(" (most under {})", widest.light));
+  const auto half = fmt::format(
+      "Half of the pixels are within ΔE2000 {} (worst under {}), 95\u202f% within {}{}.",
+      delta_e_text(most.median), w.light, delta_e_text(tail),
+      &widest == &w ? "" : fmt::format(" (worst under {})", widest.light));
   const double apart = widest.models[best].spacing_p95;
   const auto spacing =
       apart > 0.5 * tail
@@ -81,7 +81,7 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
         spacing, part);
   return fmt::format("{} {}. {}{}{}", begin,
                      most.median <= just_seen    ? "looks almost like the table"
-                     : most.median <= told_apart ? "shows in the table"
+                     : most.median <= told_apart ? "looks slightly different from the table"
                                                  : "looks different from the table",
                      half, spacing, part);
 }
@@ -150,10 +150,11 @@ std::string how(const Spheres& s) {
       "Front light: three lights on the viewer's side. Rim light: one of these, and two from "
       "behind "
       "the sphere. Flash: one, 10° above the viewer. White is the table's 99th percentile of "
-      "luminance under each light. Covered: share of the lit pixels whose value the table gives "
-      "by interpolation; scattered samples count within {}° of both directions, mirrored or "
-      "swapped.{} Only spacing: the difference between the fit and the fit sampled at the table's "
-      "places, interpolated between them.",
+      "luminance under each light. Covered: share of the lit pixels for which the table has a "
+      "value. On a grid it is interpolated. In a list the nearest sample is taken, if both its "
+      "directions are within {}°; its mirror image and its reciprocal count, too.{} Spacing only: "
+      "the fit against itself, read at the table's directions and taken between them as the table "
+      "is.",
       Spheres::reach_deg,
       colours
           ? std::string()

@@ -83,6 +83,12 @@ class MapDrawing {
   double left() const { return 34 + widest(m_.y, y_) + (m_.y.names.empty() ? 0 : 4); }
   double below() const { return turned_ ? 0.75 * widest(m_.x, x_) + 26 : 36; }
 
+  /// Width of the box that names of x and numbers in cells need.
+  double least() const {
+    const double name = turned_ ? svg::text_size : widest(m_.x, x_);
+    return static_cast<double>(m_.x.size()) * (std::max(name, svg::text_width("−0.00", 11)) + 4);
+  }
+
   /// \param x_texts, y_texts  whether they stand at this one of several
   std::string marks(std::size_t slice,
                     std::size_t most,
@@ -128,14 +134,15 @@ class MapDrawing {
                                markup_text(fmt::format("{}", fmt::join(of.names, "|"))));
     };
     return fmt::format(
-        R"(<svg class="plot" role="img" tabindex="0" aria-label="{}" data-x="{}" data-y="{}" data-xs="{}" data-ys="{}"{}{} data-scale="{} {:.6g} {:.6g}{}" data-cells="{}" style="--left:{}px;--below:{}px;height:{}px">{}{}</svg>)",
+        R"(<svg class="plot" role="img" tabindex="0" aria-label="{}" data-x="{}" data-y="{}" data-xs="{}" data-ys="{}"{}{} data-scale="{} {:.6g} {:.6g}{}" data-cells="{}" style="--left:{}px;--below:{}px;--least:{}px;height:{}px">{}{}</svg>)",
         markup_text(
             fmt::format("{}: {} by {} and {}.", m_.title, m_.value, m_.x.label, m_.y.label)),
         axis(x_), axis(y_), edges(x_edges_, [&](double v) { return x_at(v); }),
         edges(y_edges_, [&](double v) { return y_at(v); }), named("data-nx", m_.x),
         named("data-ny", m_.y), name_of(m_.scale), colours_.low, colours_.high,
         m_.diverging ? " diverging" : "", values(slice), number(left()), number(below()),
-        number(box_.height), marks(slice, map_ticks_most, true, true, with_cells), names(left()));
+        number(least()), number(box_.height), marks(slice, map_ticks_most, true, true, with_cells),
+        names(left()));
   }
 
   std::string legend(double left, double top) const {
@@ -365,7 +372,7 @@ std::string page_scale(const FigureMap& m) {
   for (const double t : colours.ticks)
     out += fmt::format(R"(<span style="left:{:.3g}%">{}</span>)", 100 * colour_part(m, colours, t),
                        scale_text(m, colours, t));
-  return out + "</b>" + markup_text(m.value) + "</div>";
+  return out + "</b><small>" + markup_text(m.value) + "</small></div>";
 }
 
 std::string page_shades(std::span<const FigureMap> maps) {

@@ -18,6 +18,9 @@ using svg::number;
 
 constexpr std::size_t most_labels = 60;  ///< more of them would hide the points
 constexpr double file_height = 320, curve_page_width = 600;
+/// Widths that labels are placed for, with the class that shows them where there is as much room.
+constexpr std::pair<double, std::string_view> label_widths[] = {
+    {310, "labels narrow"}, {curve_page_width, "labels"}, {1000, "labels wide"}};
 
 struct Point {
   double x, y;
@@ -76,7 +79,7 @@ class CurveDrawing {
     inside += fmt::format(R"(<path class="ax" d="M0 0V{}H{}"/>)", number(box_.height),
                           number(box_.width));
     for (std::size_t i = 0; i < f_.curves.size(); ++i) inside += curve(i);
-    return box_.inside(inside) + svg::axis_texts(box_, x_ticks_, y_ticks_) + labels() +
+    return box_.inside(inside) + svg::axis_texts(box_, x_ticks_, y_ticks_) + all_labels() +
            svg::axis_names(box_, f_.x.label, f_.y.label, left_, 38);
   }
   std::string curves() const {
@@ -171,17 +174,33 @@ class CurveDrawing {
     return out + "</g>";
   }
 
-  /// Beside its point, above or below a bar of its error, where it hides no other and lies on no dashed line.
-  std::string labels() const {
+  /// On a page they are placed for several widths, of which it shows one: its box grows, and texts do not.
+  std::string all_labels() const {
     std::size_t count = 0;
     for (const auto& c : f_.curves) count += c.labels.size();
     if (count == 0 || count > most_labels) return "";
+    if (!box_.page) return labels(box_.width, "labels");
+    std::string out;
+    for (const auto& [width, look] : label_widths) out += labels(width, look);
+    return out;
+  }
+  bool is_on_dashed_line(double x, double y) const {
+    return std::ranges::any_of(f_.curves, [&](const FigureCurve& c) {
+      for (std::size_t i = 0; c.dashed && i < c.x.size(); ++i)
+        if (c.x[i] == x && c.y[i] == y) return true;
+      return false;
+    });
+  }
+  /// Beside its point, above or below a bar of its error, where it hides no other and lies on no dashed line.  Points on such a line
+  /// come first.
+  std::string labels(double width, std::string_view look) const {
+    const auto x_at = [&](double v) { return width * x_.part(v); };
     struct Area {
       double left, top, right, bottom;
     };
     std::vector<Area> taken;
     const auto free = [&](const Area& b) {
-      return b.left > 0 && b.right < box_.width && b.top > -6 && b.bottom < box_.height &&
+      return b.left > 0 && b.right < width && b.top > -6 && b.bottom < box_.height &&
              std::ranges::none_of(taken, [&](const Area& t) {
                return b.left < t.right && t.left < b.right && b.top < t.bottom && t.top < b.bottom;
              });
@@ -207,7 +226,10 @@ class CurveDrawing {
           const double x = x_at(c.x[i]), y = y_at(c.y[i]);
           taken.push_back({x - 3, y - 3, x + 3, y + 3});
         }
-    std::string out = R"(<g class="in labels" font-size="11">)";
+    std::ranges::stable_partition(of, [&](const auto& at) {
+      return is_on_dashed_line(at.first->x[at.second], at.first->y[at.second]);
+    });
+    std::string out = fmt::format(R"(<g class="in {}" font-size="11">)", look);
     for (const auto& [c, i] : of) {
       const double x = x_at(c->x[i]), y = y_at(c->y[i]), w = svg::text_width(c->labels[i], 11);
       for (const auto& [right, down] : {std::pair(5.0, -16.0),
@@ -221,7 +243,8 @@ class CurveDrawing {
         const Area b{x + right, y + down, x + right + w, y + down + 13};
         if (!free(b)) continue;
         taken.push_back(b);
-        out += box_.text(x, b.bottom - 3, c->labels[i], fmt::format(R"( dx="{}")", number(right)));
+        out += box_.text(x * box_.width / width, b.bottom - 3, c->labels[i],
+                         fmt::format(R"( dx="{}")", number(right)));
         break;
       }
     }

@@ -397,7 +397,10 @@ TEST(Validate, SaysEachBrokenBudgetInOneSentenceWithItsPlace) {
   const auto text = sentence(v.budgets[0]);
   EXPECT_TRUE(text.starts_with("The directional albedo is off the reference's by 0.")) << text;
   EXPECT_NE(text.find("at roughness "), text.npos) << text;
-  EXPECT_TRUE(text.ends_with("the budget is 0.01.")) << text;
+  EXPECT_NE(text.find(", cosine "), text.npos) << text;
+  EXPECT_TRUE(text.ends_with("the budget is 0.01. The model is too dark.")) << text;
+  const auto brighter = of({{"albedo_error", 0.01}}, {{"model", smith}, {"reference", remapped}});
+  EXPECT_TRUE(sentence(brighter.budgets[0]).ends_with(" The model is too bright."));
 }
 
 TEST(Validate, WritesWhatMachinesRead) {

@@ -226,10 +226,13 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
       std::ranges::all_of(pairs, [&](auto pair) { return range(pair.second) <= 90; }))
     for (const auto& [zenith, azimuth] : pairs) {
       if (!found.angle[zenith] || !found.angle[azimuth]) continue;
-      p.said.push_back(
-          fmt::format("{} is taken for the zenith angle, {} for the azimuth: one that is "
-                      "called a zenith angle exceeds 90°",
-                      columns[*found.angle[azimuth]].name, columns[*found.angle[zenith]].name));
+      const auto& named = columns[*found.angle[zenith]];
+      p.said.push_back(fmt::format(
+          "{} is taken for the zenith angle, {} for the azimuth: {}",
+          columns[*found.angle[azimuth]].name, named.name,
+          largest(named) > 90 ? fmt::format("{} holds {:g}°, which no zenith angle is", named.name,
+                                            named.highest > 90 ? named.highest : named.lowest)
+                              : "the file names both directions alike"));
       std::swap(found.angle[zenith], found.angle[azimuth]);
     }
 

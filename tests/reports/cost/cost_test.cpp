@@ -472,7 +472,7 @@ TEST(CostPictures, AreWhole) {
   const auto said = findings(rows);
   ASSERT_FALSE(said.sentences.empty());
   EXPECT_NE(said.sentences[0].find("Schlick's k"), std::string::npos) << said.sentences[0];
-  EXPECT_TRUE(said.headline.starts_with("Exact Smith in place of Schlick's k costs a GGX sample"));
+  EXPECT_TRUE(said.headline.starts_with("Exact Smith in place of Schlick's k costs "));
 }
 
 TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNoMore) {
@@ -481,7 +481,9 @@ TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNoMore) {
   for (auto& s : rows.switches) s.differs = true, s.ns = s.memory == "cache" ? 0.234 : -0.05;
   const auto said = findings(rows);
   EXPECT_EQ(said.sentences[0], said.headline) << "before it tells of other programs";
-  EXPECT_NE(said.headline.find(" 0.23 ns more in cache, and no more in columns"), std::string::npos)
+  EXPECT_NE(said.headline.find(
+                " 0.23 ns more for a sample in cache; a whole GGX model costs no more in columns"),
+            std::string::npos)
       << said.headline;
 }
 

@@ -319,7 +319,7 @@ TEST(EnergyReport, FindingsAreMadeFromTheFigures) {
     return std::ranges::any_of(all, [&](const std::string& f) { return f.find(words) != f.npos; });
   };
   EXPECT_TRUE(said("69.3\u00a0% at normal incidence and 59.1\u00a0% on average"));
-  EXPECT_TRUE(said("Worst: GGX without masking, 5 times as much at roughness 1, mu 0.1."));
+  EXPECT_TRUE(said("Worst: GGX without masking, 5 times as much at roughness 1, cosine 0.1."));
 }
 
 TEST(EnergyReport, CountsAFormOnceWhoseTailWasVaried) {

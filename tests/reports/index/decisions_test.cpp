@@ -130,17 +130,17 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
             "brass next to a photograph: exact conductor at three wavelengths, ΔE ≤ 0.9");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").take, "F82");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").error,
-            "ΔE ≤ 0.4 (Schlick: ΔE 5.7 for iron)");
+            "ΔE ≤ 0.4 (Schlick: ΔE ≤ 5.7 for iron)");
   auto f = made_facts();
   f.fresnel.push_back({"fresnel.schlick", "metal", "chromium", 7, 0.1});
   f.fresnel.push_back({"fresnel.f82", "metal", "chromium", 0.7, 0.1});
   EXPECT_EQ(about(decisions(f), "Fresnel of other metals").error,
-            "ΔE ≤ 0.7 (Schlick: ΔE 5.7 for iron)");
+            "ΔE ≤ 0.7 (Schlick: ΔE ≤ 7 for chromium)");
   EXPECT_EQ(about(all, "Fresnel of dielectrics (glass)").take, "Exact dielectric");
   const auto& bounces = about(all, "Multiple scattering under single lights");
   EXPECT_EQ(bounces.subject, "Multiple scattering under single lights, F0 0.9 (bright metal)");
   EXPECT_EQ(bounces.take, "Turquin, from roughness 0.4 on");
-  EXPECT_EQ(bounces.error, "ΔE ≤ 1.9 (one bounce: 18)");
+  EXPECT_EQ(bounces.error, "ΔE ≤ 1.9 (one bounce: ≤ 18)");
   EXPECT_EQ(bounces.unless, "F0 is 0.04: one bounce, ΔE ≤ 1.9");
   EXPECT_EQ(bounces.cost,
             "12 ns instead of 4.1 ns, one call at a time (not comparable with other rows)");
@@ -171,7 +171,7 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
             "γ is fitted (median 1.4, where it is determined): GTR, ×/÷ 1.2, +0.80 ns");
   const auto& matte = about(all, "Diffuse of matte surfaces");
   EXPECT_EQ(matte.take_id, "diffuse.eon");
-  EXPECT_EQ(matte.error, "none (it is the reference; Lambert: ΔE 14)");
+  EXPECT_EQ(matte.error, "none (it is the reference; Lambert: ΔE ≤ 14)");
   EXPECT_EQ(matte.cost, "+0.48 ns");
   const auto& below = about(all, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.hammon") << "the only one that makes no light";
@@ -197,8 +197,12 @@ TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
   f.diffuse[3].most_albedo = 1.01;
   EXPECT_EQ(about(decisions(f), "Diffuse of matte surfaces").take_id, "diffuse.lambert");
   f.diffuse[4].most_with_lobe = 1.6;
-  EXPECT_EQ(about(decisions(f), "Diffuse below a lobe").take_id, "diffuse.lambert.coupled")
+  const auto below = about(decisions(f), "Diffuse below a lobe");
+  EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "where all make light, that which makes least";
+  EXPECT_EQ(below.unless,
+            "more energy gain is acceptable: Hammon's diffuse for GGX and Smith, ΔE ≤ 3.5, up to "
+            "160\u00a0% of the light");
 }
 
 TEST(Decisions, ChangeWhereAThresholdIsCrossed) {

@@ -49,7 +49,7 @@ TEST(ReportIndex, TellsDecisionsOneSentenceAReportAndClaimsWithTheirFigure) {
   EXPECT_EQ(j["claims"][0]["figure"], "0.036 of light");
   EXPECT_EQ(j["front"][0]["curves"].size(), 2U) << "the first series and its front";
   EXPECT_EQ(j["front"][0]["curves"][0]["name"], "masking forms for GGX");
-  EXPECT_EQ(j["front"][0]["y"]["label"], "RMS error of G2 over the audit's directions");
+  EXPECT_EQ(j["front"][0]["y"]["label"], "RMS error of G₂");
   ASSERT_EQ(j["fresnel"].size(), 2U) << "a decision may name any of them";
   EXPECT_EQ(j["fresnel"][0]["form"], "Schlick");
   EXPECT_EQ(j["machine"]["isa"], "avx2");

@@ -69,6 +69,42 @@ TEST(FitPage, ShowsAParameterWithItsIntervalLimitOrReason) {
     EXPECT_NE(html.find(std::string("<section id=\"") + id), html.npos) << id;
 }
 
+TEST(FitPage, ShowsALimitInPlaceOfTheValueAndWhereAnIntervalIsCut) {
+  FitDocument d;
+  d.model = "ggx/smith_ggx.correlated/schlick";
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  using enum ParameterStatus;
+  d.parameters = {{"alpha", {0.0028456}, {none}, {none}, {none}, {upper_limit}, {0.0137}},
+                  {"f0", {0.56}, {0.89}, {0}, {1}, {unbounded}, {none}, {"too wrong"}}};
+  d.values_used = 684;
+  d.masked = {{"below_horizon", 8}, {"left_out_by_mask", 32}};
+  const auto html = html_of(d);
+  EXPECT_EQ(html.find("0.0028456"), html.npos);
+  EXPECT_NE(html.find("its whole range"), html.npos);
+  EXPECT_NE(html.find("of 724"), html.npos);
+  EXPECT_NE(html.find("A blue arrow"), html.npos);
+  EXPECT_EQ(html.find("An orange arrow"), html.npos) << "the truth is not known";
+  d.parameters[1].ci95_high = {0.9};
+  EXPECT_EQ(html_of(d).find("end of its range"), html.npos) << "0 says that by itself";
+}
+
+TEST(FitPage, LeavesUnknownParametersOutOfTheCorrelations) {
+  FitDocument d;
+  d.model = "lambert+ggx/smith_ggx.correlated/schlick";
+  d.channels = {"r", "g"};
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  using enum ParameterStatus;
+  d.parameters = {
+      {"kd", {0.5, 0.4}, {0.1, 0.1}, {0.3, 0.2}, {0.7, 0.6}, {free, free}},
+      {"f0", {0.04, none}, {0.01, none}, {0.03, none}, {0.05, none}, {free, not_identifiable}}};
+  d.free_names = {"kd.r", "kd.g", "f0.r", "f0.g"};
+  d.correlations = {{1, 0.1, 0.2, 0.3}, {0.1, 1, -0.4, 0.97}, {0.2, -0.4, 1, 0}, {0.3, 0.97, 0, 1}};
+  const auto html = html_of(d);
+  EXPECT_NE(html.find("kd.g and f0.r, correlation −0.400"), html.npos);
+  EXPECT_EQ(html.find("Hardly separable"), html.npos);
+  EXPECT_NE(html.find("data-nx=\"kd.r|kd.g|f0.r\""), html.npos);
+}
+
 TEST(FitPage, NamesItsOwnDocumentAndTheCommandThatOpensBothWithSliders) {
   FitDocument d;
   d.model = "lambert";

@@ -41,7 +41,9 @@ TEST(ColumnProposal, AZenithAngleThatGoesRoundIsTheAzimuth) {
                                  {"theta_o", "phi_o"},
                                  {"phi_o", "theta_o"},
                                  {"f", "brdf"}}));
-  EXPECT_EQ(p.said.size(), 2U);
+  ASSERT_EQ(p.said.size(), 2U);
+  EXPECT_TRUE(p.said[0].ends_with("theta_i holds 180°, which no zenith angle is")) << p.said[0];
+  EXPECT_TRUE(p.said[1].ends_with("the file names both directions alike")) << p.said[1];
 }
 
 TEST(ColumnProposal, AnglesWithinTwoPiAreRadians) {
