@@ -206,7 +206,7 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   progress.clear();
   Json all = Json::array();
   if (!o.json)
-    say("{}\n{:<8}{:<24}{:>10}{:>14}{:>14}\n", file, "", "name", "entries", "from", "to");
+    say("{}\n{:<8}{:<24}{:>10}{:>14}{:>14}\n", file, "", "name", "different", "from", "to");
   for (std::size_t k = 0; k < columns.size(); ++k) {
     const auto& c = columns[k];
     if (o.json) {
@@ -219,8 +219,8 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
       continue;
     }
     const std::string name = printable(c.name, 40);
-    const auto entries = fmt::format("{}{}", c.distinct, c.distinct == 1000 ? "+" : "");
-    say("{:<8}{:<24}{:>10}", fmt::format("#{}", k + 1), name, entries);
+    const auto different = fmt::format("{}{}", c.distinct, c.distinct == 1000 ? "+" : "");
+    say("{:<8}{:<24}{:>10}", fmt::format("#{}", k + 1), name, different);
     if (c.numbers)
       fmt::print("{:>14.6g}{:>14.6g}\n", c.lowest, c.highest);
     else

@@ -270,9 +270,8 @@ Section cards(const ReportIndex& i) {
   for (const auto& r : i.reports) {
     const auto href = page_of(r.name);
     html += fmt::format(
-        R"(<article class="card"><a href="{0}">{1}</a><h3><a href="{0}">{2}</a></h3><p>{3}</p><p class="small muted"><a href="{4}.json">JSON</a> · <a href="{4}.csv">CSV</a> · {5} · made in {6}</p></article>)",
-        href, r.first.figures.empty() ? "" : page_small(r.first.figures[0], 260, 96),
-        markup_text(capital(std::string(r.what))), markup_text(sentence_of(r)), r.name,
+        R"(<article class="card"><h3><a href="{0}">{1}</a></h3><p>{2}</p><p class="small muted"><a href="{3}.json">JSON</a> · <a href="{3}.csv">CSV</a> · {4} · made in {5}</p></article>)",
+        href, markup_text(capital(std::string(r.what))), markup_text(sentence_of(r)), r.name,
         r.first.figures.empty() ? many(r.pictures, "picture")
                                 : fmt::format(R"(<a href="{}/{}.svg">the first of {}</a>)", r.name,
                                               r.first.figures[0].id, many(r.pictures, "picture")),
