@@ -25,7 +25,7 @@ std::vector<FigureCurve> curves_of(const Series& series) {
   std::vector<FigureCurve> out;
   for (const auto& [name, dots] : series) {
     out.push_back(front_points(name, dots));
-    if (auto line = front_line("front of " + name, dots)) out.push_back(std::move(*line));
+    if (auto line = front_line("best trade-offs, " + name, dots)) out.push_back(std::move(*line));
   }
   return out;
 }

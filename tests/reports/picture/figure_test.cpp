@@ -208,6 +208,32 @@ TEST(PageSvg, SaysWhatItsScriptReads) {
   EXPECT_EQ(svg.find('#'), svg.npos) << "a colour that would be the same in the dark";
 }
 
+TEST(PageSvg, PlacesLabelsForSeveralWidthsAndThoseOnADashedLineFirst) {
+  Figure f{"front", "Front", "", {"x"}, {"y"}, {}};
+  FigureCurve points{"forms", {}, {}, FigureCurve::Kind::points};
+  for (int i = 0; i < 12; ++i) {
+    points.x.push_back(5 + 0.02 * i);
+    points.y.push_back(5);
+    points.labels.push_back(fmt::format("a form of number {}", i));
+  }
+  points.x.insert(points.x.end(), {0, 10});
+  points.y.insert(points.y.end(), {0, 10});
+  points.labels.insert(points.labels.end(), {"first", "last"});
+  FigureCurve line{"best", {0, 5.1, 10}, {0, 5, 10}};
+  line.dashed = true;
+  f.curves = {points, line};
+  const auto svg = page_svg(f, CurveStyles({&f, 1}), 300, {true, true});
+  ASSERT_EQ(occurrences(svg, "<g class=\"in labels"), 3U);
+  std::size_t before = 0;
+  for (const char* look : {"labels narrow", "labels", "labels wide"}) {
+    const auto at = svg.find(fmt::format("<g class=\"in {}\"", look));
+    const auto group = svg.substr(at, svg.find("</g>", at) - at);
+    EXPECT_EQ(occurrences(group, ">a form of number 5<"), 1U) << look;
+    EXPECT_GE(occurrences(group, "<text"), before) << look;
+    before = occurrences(group, "<text");
+  }
+}
+
 TEST(PageSvg, IsMadeForTheCurvesThatAreShownAtFirst) {
   Figure f{"two", "Two", "", {"x"}, {"y"}, {{"a", {0, 1}, {0, 1}}, {"b", {0, 1}, {0, 100}}}};
   const CurveStyles styles({&f, 1});
