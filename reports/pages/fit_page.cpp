@@ -25,7 +25,7 @@ namespace gonio {
 
 FitPage make_fit_page(const gonio::Table& table, const BoundModel& fitted) {
   return {table.channels, make_cuts(table, fitted), make_residual_map(table, fitted),
-          make_spheres(table, {&fitted, 1})};
+          make_spheres(table, {&fitted, 1}), !fitted.model.lobes.empty()};
 }
 
 std::string to_json(const FitPage& page, std::string_view fit_json, std::string_view health_json) {
@@ -326,10 +326,13 @@ std::string fit_page_html(const FitDocument& d,
                        d.misfit.told ? "does not fit" : "fitted to", file)};
   out.first.emplace_back(
       Prose{fmt::format("`{}` {} the {} values used of `{}` {} a typical factor of **{}** (log RMS "
-                        "{}); the fit {}.",
+                        "{}); the fit {}.{}",
                         d.model, does, count_text(d.values_used), file, d.misfit.told ? "by" : "to",
                         factor_text(log_rms), log_rms_text(log_rms),
-                        d.solver.termination == "converged" ? "converged" : "**did not converge**"),
+                        d.solver.termination == "converged" ? "converged" : "**did not converge**",
+                        !p.has_lobe && !parse_model(d.model).lobes.empty()
+                            ? " Numbers and pictures are of the fit without the lobe."
+                            : ""),
             "verdict"});
   if (auto all = warnings(d, t, h, rows); !all.each.empty()) out.first.emplace_back(std::move(all));
   if (!d.next.empty()) {

@@ -20,6 +20,7 @@ struct FitPage {
   std::vector<Cut> curves;
   ResidualMap residual_map;
   Spheres spheres;
+  bool has_lobe = true;  ///< the model that is drawn
 };
 
 FitPage make_fit_page(const Table&, const BoundModel& fitted);

@@ -362,10 +362,11 @@ Section confidence(const FitDocument& d, Pictures& pictures) {
   }
   if (beside.parts.empty()) return {};
   return {"How well the parameters are separated",
-          tied ? fmt::format("The pair hardest to tell apart: {} and {}, correlation {}. 0 is "
-                             "best; near ±1 one makes up for the other.",
-                             tied->a, tied->b, rho_text(tied->rho))
-               : "",
+          tied && std::abs(tied->rho) > 0.005
+              ? fmt::format("The pair hardest to tell apart: {} and {}, correlation {}. 0 is "
+                            "best; near ±1 one makes up for the other.",
+                            tied->a, tied->b, rho_text(tied->rho))
+              : "",
           {std::move(beside)}};
 }
 

@@ -199,10 +199,18 @@ class CurveDrawing {
       double left, top, right, bottom;
     };
     std::vector<Area> taken;
-    const auto free = [&](const Area& b) {
+    std::vector<Point> points;
+    const auto meet = [](const Area& a, const Area& b) {
+      return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
+    };
+    // A name beside another point would be read as that one's.
+    const auto free = [&](const Area& b, const Point& own) {
       return b.left > 0 && b.right < width && b.top > -6 && b.bottom < box_.height &&
-             std::ranges::none_of(taken, [&](const Area& t) {
-               return b.left < t.right && t.left < b.right && b.top < t.bottom && t.top < b.bottom;
+             std::ranges::none_of(taken, [&](const Area& t) { return meet(b, t); }) &&
+             std::ranges::none_of(points, [&](const Point& p) {
+               const bool is_own = p.x == own.x && p.y == own.y;
+               const double beside = is_own ? 3 : std::clamp((b.right - b.left) / 2, 3.0, 10.0);
+               return meet(b, {p.x - beside, p.y - 3, p.x + beside, p.y + 3});
              });
     };
     const auto cover = [&](double x0, double y0, double x1, double y1) {
@@ -223,8 +231,7 @@ class CurveDrawing {
       for (std::size_t i = 0; i < c.labels.size(); ++i)
         if (drawable(c, i)) {
           of.emplace_back(&c, i);
-          const double x = x_at(c.x[i]), y = y_at(c.y[i]);
-          taken.push_back({x - 3, y - 3, x + 3, y + 3});
+          points.push_back({x_at(c.x[i]), y_at(c.y[i])});
         }
     std::ranges::stable_partition(of, [&](const auto& at) {
       return is_on_dashed_line(at.first->x[at.second], at.first->y[at.second]);
@@ -239,9 +246,13 @@ class CurveDrawing {
                                         {7, -6},
                                         {-7 - w, -6},
                                         {-w / 2, -18},
-                                        {-w / 2, 5}}) {
+                                        {-w / 2, 5},
+                                        {5, 9},
+                                        {-5 - w, 9},
+                                        {5, -23},
+                                        {-5 - w, -23}}) {
         const Area b{x + right, y + down, x + right + w, y + down + 13};
-        if (!free(b)) continue;
+        if (!free(b, {x, y})) continue;
         taken.push_back(b);
         out += box_.text(x * box_.width / width, b.bottom - 3, c->labels[i],
                          fmt::format(R"( dx="{}")", number(right)));

@@ -88,6 +88,21 @@ TEST(FitPage, ShowsALimitInPlaceOfTheValueAndWhereAnIntervalIsCut) {
   EXPECT_EQ(html_of(d).find("end of its range"), html.npos) << "0 says that by itself";
 }
 
+TEST(FitPage, SaysWhenItsModelIsTheOneWithoutTheLobe) {
+  FitDocument d;
+  const Table t = test::filled(test::in_out_grid(), test::glossy());
+  const auto words = std::string("are of the fit without the lobe");
+  auto page = make_fit_page(t, test::glossy());
+  const auto html = [&](const char* model) {
+    d.model = model;
+    return fit_page_html(d, t, inspect(t), page);
+  };
+  EXPECT_EQ(html("lambert+ggx/smith_ggx.correlated/schlick").find(words), std::string::npos);
+  page = make_fit_page(t, bind_model(parse_model("lambert"), {}, 3));
+  EXPECT_NE(html("lambert+ggx/smith_ggx.correlated/schlick").find(words), std::string::npos);
+  EXPECT_EQ(html("lambert").find(words), std::string::npos);
+}
+
 TEST(FitPage, LeavesUnknownParametersOutOfTheCorrelations) {
   FitDocument d;
   d.model = "lambert+ggx/smith_ggx.correlated/schlick";
