@@ -10,7 +10,7 @@ namespace gonio {
 namespace {
 
 /// Shorter than the catalogue's titles, as people say them.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 64> names{
+constexpr std::array<std::pair<std::string_view, std::string_view>, 69> names{
     {{"masking.smith_ggx.correlated", "Height-correlated Smith"},
      {"masking.smith_ggx.separable", "Separable Smith"},
      {"masking.schlick_ggx.direct", "Schlick's k = (r+1)²/8"},
@@ -50,12 +50,15 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 64> names{
      {"fresnel.schlick.weighted", "Schlick of a partial layer"},
      {"fresnel.schlick.f90.weighted", "Schlick with F90, partial layer"},
      {"fresnel.schlick.metallic", "Schlick, metallic workflow"},
+     {"fresnel.schlick.reflectance", "Schlick, Filament's parameters"},
      {"masking.smith_ggx_aniso.correlated", "Anisotropic Smith, correlated"},
      {"masking.smith_ggx_aniso.separable", "Anisotropic Smith, separable"},
      {"masking.smith_beckmann_aniso.correlated", "Anisotropic Beckmann, correlated"},
      {"masking.smith_beckmann.rational", "Walter's rational form"},
      {"masking.smith_gtr.correlated", "Smith for GTR, correlated"},
      {"masking.smith_gtr.separable", "Smith for GTR, separable"},
+     {"masking.smith_charlie.correlated", "Smith for Charlie"},
+     {"masking.smith_student_t.correlated", "Smith for Student's t"},
      {"masking.disney_coat", "Disney's coat"},
      {"masking.disney_remap", "Disney's remapped Smith"},
      {"masking.cook_torrance", "Cook–Torrance"},
@@ -63,6 +66,8 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 64> names{
      {"ndf.ggx.mobile", "GGX_Mobile"},
      {"ndf.ggx.mobile.cross", "GGX_Mobile, its cross product"},
      {"ndf.ggx.ue_mobile", "D_GGX_R2"},
+     {"ndf.beckmann_aniso.as_written", "Anisotropic Beckmann as written"},
+     {"ndf.shape_invariant", "Student's t for its shape"},
      {"ndf.gtr", "GTR"},
      {"ndf.gtr1", "GTR of γ = 1"},
      {"ndf.gtr.as_written", "GTR as if γ were 2"},

@@ -233,8 +233,12 @@ class CurveDrawing {
           of.emplace_back(&c, i);
           points.push_back({x_at(c.x[i]), y_at(c.y[i])});
         }
-    std::ranges::stable_partition(of, [&](const auto& at) {
-      return is_on_dashed_line(at.first->x[at.second], at.first->y[at.second]);
+    const auto is_shown = [&](const auto& at) {
+      return bool(first_[static_cast<std::size_t>(at.first - f_.curves.data())]);
+    };
+    std::ranges::stable_sort(of, std::ranges::greater{}, [&](const auto& at) {
+      return std::pair(is_shown(at),
+                       is_on_dashed_line(at.first->x[at.second], at.first->y[at.second]));
     });
     std::string out = fmt::format(R"(<g class="in {}" font-size="11">)", look);
     for (const auto& [c, i] : of) {
@@ -255,7 +259,8 @@ class CurveDrawing {
         if (!free(b, {x, y})) continue;
         taken.push_back(b);
         out += box_.text(x * box_.width / width, b.bottom - 3, c->labels[i],
-                         fmt::format(R"( dx="{}")", number(right)));
+                         fmt::format(R"( dx="{}"{})", number(right),
+                                     is_shown(std::pair(c, i)) ? "" : R"( class="more")"));
         break;
       }
     }
