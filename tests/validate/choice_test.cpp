@@ -66,7 +66,7 @@ TEST(Choice, NamesThePlaceOfWhatItDoesNotTake) {
           "ggx/schlick_ggx.half_alpha/schlick (");
   refused("/reference_parameters", {{"gamma", 2}}, "c.json: /reference_parameters/gamma: found 2");
   refused("/domain/roughness", {0.5, 0.2}, "c.json: /domain/roughness: found ");
-  refused("/domain/mu", {0, 1}, "c.json: /domain/mu: found ");
+  refused("/domain/mu", {0, 1}, "expected [low, high] within 0.0001 to 1, not [0, 1]");
   refused("/domain/metal", "unobtainium", "c.json: /domain/metal: found ");
   refused("/domain/eta", {1.3, 2}, "only one of eta, f0, metal and fits");
   refused("/number", "wide", "c.json: /number: found ");
