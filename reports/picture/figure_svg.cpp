@@ -233,12 +233,19 @@ class CurveDrawing {
           of.emplace_back(&c, i);
           points.push_back({x_at(c.x[i]), y_at(c.y[i])});
         }
+    const auto is_on_line = [&](const auto& at) {
+      return is_on_dashed_line(at.first->x[at.second], at.first->y[at.second]);
+    };
+    // Where there is little room, only points of the line keep long names.
+    if (width < curve_page_width && std::ranges::any_of(of, is_on_line))
+      std::erase_if(of, [&](const auto& at) {
+        return !is_on_line(at) && svg::text_width(at.first->labels[at.second], 11) > 20;
+      });
     const auto is_shown = [&](const auto& at) {
       return bool(first_[static_cast<std::size_t>(at.first - f_.curves.data())]);
     };
     std::ranges::stable_sort(of, std::ranges::greater{}, [&](const auto& at) {
-      return std::pair(is_shown(at),
-                       is_on_dashed_line(at.first->x[at.second], at.first->y[at.second]));
+      return std::pair(is_shown(at), is_on_line(at));
     });
     std::string out = fmt::format(R"(<g class="in {}" font-size="11">)", look);
     for (const auto& [c, i] : of) {

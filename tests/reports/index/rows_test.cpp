@@ -81,8 +81,8 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
       kulla = std::max(kulla, s.delta_e);
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(row.error,
-            fmt::format("{} (one bounce: {:.2g}; no form leaves less)", up_to(kulla), nothing));
+  EXPECT_EQ(row.error, fmt::format("{} (the least that a form leaves; one bounce: {})",
+                                   up_to(kulla), at_most(nothing)));
   EXPECT_NE(row.unless.find("F0 is 0.04: one bounce, ΔE ≤ 1.4"), row.unless.npos) << row.unless;
 }
 
@@ -180,14 +180,16 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   const auto rows = decisions(all);
   const auto& matte = of(rows, "Diffuse of matte surfaces");
   EXPECT_EQ(matte.take_id, "diffuse.eon");
-  EXPECT_EQ(matte.error, "none (it is the reference; Lambert: ΔE 14)")
+  EXPECT_EQ(matte.error, "none (it is the reference; Lambert: ΔE ≤ 14)")
       << "the maximum, no quantile";
   const auto& below = of(rows, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "Disney's is nearer, and makes more light than any";
   EXPECT_EQ(below.error,
             up_to(5.2) + "; reflects at most 140\u00a0% of the light (Lambert: 191\u00a0%)");
-  EXPECT_EQ(below.unless, "energy gain is acceptable: Disney's diffuse, ΔE ≤ 1")
+  EXPECT_EQ(
+      below.unless,
+      "more energy gain is acceptable: Disney's diffuse, ΔE ≤ 1, up to 220\u00a0% of the light")
       << "the nearest of them";
 }
 
@@ -227,7 +229,8 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   const auto row = of(decisions(facts(r)), "Precision");
   EXPECT_EQ(row.take, "|n × h|², α clamped at 0.038") << "at 0.037 it is not kept";
   EXPECT_EQ(row.error,
-            "≤ 2.2\u00a0% on metal up to 88°, by search (F0 from 0.5; light and view; no proof)");
+            "≤ 2.2\u00a0% on metal, light and view up to 88° (F0 of 0.5 or more; a search found no "
+            "larger error, which is no proof)");
   EXPECT_EQ(row.cost, "smoother surfaces render as roughness 0.2");
   r.highlights[0].safe_from.reset();
   EXPECT_EQ(of(decisions(facts(r)), "Precision").take, "float instead");
