@@ -89,11 +89,12 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
     say_below("  beware  ",
               "no other set keeps the tolerance both where sets are compared and on fresh points; "
               "this one drops only what changes nothing");
-  if (m.passed_over > 0)
+  if (m.is_unlit())
+    say_below("  beware  ", "no light comes to any point of it: every set of forms looks the same");
+  if (m.failed)
     say_below("          ",
-              fmt::format("{} cheaper {} where chosen and failed on fresh points{}", m.passed_over,
-                          m.passed_over == 1 ? "set held" : "sets held",
-                          m.failed ? "; " + why_passed_over(m, cost) : ""));
+              (m.passed_over > 0 ? counted(m.passed_over, "cheaper set") + " failed there; " : "") +
+                  why_passed_over(m, cost));
 }
 
 /// Path of what is written beside the plan's document.

@@ -13,8 +13,8 @@ Facts facts(const CostRows& r) {
     if (row.memory == "cache" && row.way.empty()) f.in_cache.push_back(time);
     if (row.memory == "cache" && row.way == "fused" && row.id == "ggx/smith_ggx.correlated/schlick")
       f.setting->model_ns = row.time.ns;
-    if (row.memory == "cache" && row.way == "fused") f.whole.push_back(time);
     // Few models have a fused loop.
+    if (row.memory == "cache" && row.way == "composed") f.whole.push_back(time);
     if (row.memory == "streaming" && row.way == "composed") f.streaming.push_back(time);
   }
   return f;

@@ -66,8 +66,8 @@ struct CrossCase {
   std::vector<CrossValue> values;
 
   bool is_dielectric() const;  ///< else a metal
-  /// True of a value that is where the data put it: it was not stopped by a bound, or lies at one where the form is
-  /// the truth to the last digits.
+  /// True of a value that has an interval: no bound stopped it, the data determine it, and the model is near enough to the truth to
+  /// bound it; or of one of a form that is the truth to the last digits.
   bool is_determined(const CrossValue&) const;
   /// nullptr if the model has none.
   const CrossValue* find(std::string_view parameter, std::string_view channel = {}) const;
@@ -78,8 +78,8 @@ struct CrossRange {
   std::string fitted, material, parameter;
   Metric metric;
   std::string_view layout;
-  double least, most;  ///< F0 as a part of the truth; no numbers where no fit could tell
-  std::size_t fits, at_bound;
+  double least, most;          ///< F0 as a part of the truth; no numbers where no fit could tell
+  std::size_t fits, at_bound;  ///< at_bound: of the fits, those without an interval
 };
 
 /// Sentences on what a form does to a truth, over materials and roughnesses.
@@ -87,7 +87,8 @@ struct CrossSentence {
   std::string truth, fitted, kind, sentence;
 };
 
-/// A published fit of a measured material, fitted anew with GGX or GTR as the distribution; all else as it was published.
+/// A published fit of a measured material, fitted anew with GGX or GTR under its own height-correlated Smith; diffuse and Fresnel as
+/// they were published.
 struct PublishedFit {
   std::string material;
   double width,

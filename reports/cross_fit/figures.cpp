@@ -27,7 +27,7 @@ constexpr std::array quantities{
 struct Seen {
   double value = no_value, error = 0;
 };
-/// The mean over channels that are neither at a bound nor undetermined.
+/// The mean over channels that are determined.
 Seen seen(const CrossCase& c, const Quantity& q) {
   if (q.parameter.empty()) return {c.log_rms, 0};
   double sum = 0, error = 0;
@@ -155,8 +155,7 @@ Figure shifts_figure(const CrossFitRows& r,
     }
   }
   if (!noise.x.empty()) f.curves.push_back(std::move(noise));
-  if (left_out > 0)
-    f.note += fmt::format("; {} at a bound or not determined are left out", left_out);
+  if (left_out > 0) f.note += fmt::format("; {} without an interval are left out", left_out);
   return f;
 }
 

@@ -59,8 +59,8 @@ struct Shift {
   const CrossCase* in;
 };
 struct Shifts {
-  std::vector<Shift> found{};         ///< of what was determined, and free to move
-  std::size_t at_bound = 0, all = 0;  ///< at_bound: or not determined
+  std::vector<Shift> found{};         ///< of what was determined
+  std::size_t at_bound = 0, all = 0;  ///< at_bound: not determined
 
   explicit operator bool() const { return !found.empty(); }
   const Shift& least() const { return *std::ranges::min_element(found, {}, &Shift::by); }
@@ -269,17 +269,17 @@ void published(Findings& to, const CrossFitRows& r) {
   std::vector<double> gamma;
   for (const auto& p : r.published)
     if (p.gamma_determined) gamma.push_back(p.gamma);
-  const auto below = static_cast<std::size_t>(
-      std::ranges::count_if(r.published, [](const auto& p) { return p.gamma < 2; }));
+  const auto below =
+      static_cast<std::size_t>(std::ranges::count_if(gamma, [](double g) { return g < 2; }));
   if (!gamma.empty())
     to.say(
-        fmt::format("GTR fitted to those has a gamma below GGX's 2 for {}. For the {} that "
-                    "determine it the median is {:.3g}.",
-                    of_all(below, r.published.size()), gamma.size(), middle_of(gamma)));
+        fmt::format("{} of these materials determine GTR's gamma. It is below GGX's 2 for {} of "
+                    "them, with a median of {:.3g}.",
+                    gamma.size(), below, middle_of(gamma)));
   to.say(
-      fmt::format("A free gamma takes the median log-RMS residual of these materials from {:.2g} "
-                  "to {:.2g}.",
-                  ggx, gtr));
+      fmt::format("A free gamma takes the median log-RMS residual of all {} from {:.2g} "
+                  "to {:.2g}, each distribution with its own height-correlated Smith.",
+                  r.published.size(), ggx, gtr));
   to.say(
       fmt::format("GGX's roughness of them is {:.2g} on the median, where Beckmann's was "
                   "published as {:.2g}.",
@@ -290,11 +290,11 @@ void published(Findings& to, const CrossFitRows& r) {
 /// Fits of what was made from the same forms, which ought to give everything back.
 void trust(Findings& to, const CrossFitRows& r) {
   double roughness = 0, f0 = 0, error = 0;
-  std::size_t own = 0, lost = 0, bounds = 0, values = 0, loose = 0;
+  std::size_t own = 0, lost = 0, without = 0, values = 0, loose = 0;
   for (const auto& c : r.cases) {
     lost += !c.converged;
     for (const auto& v : c.values) {
-      ++values, bounds += !c.is_determined(v);
+      ++values, without += v.status != ParameterStatus::free;
       loose += v.status == ParameterStatus::unbounded;
     }
     if (c.kind != "exact") continue;
@@ -317,16 +317,14 @@ void trust(Findings& to, const CrossFitRows& r) {
                            roughness));
   to.say(lost == 0 ? fmt::format("All {} fits converged.", r.cases.size())
                    : fmt::format("Of {} fits {} did not converge.", r.cases.size(), lost));
-  if (bounds > 0)
-    to.say(
-        fmt::format("{} of {} fitted parameters ended at a bound or were not determined; their "
-                    "shift is unknown.",
-                    bounds, values));
-  if (loose > 0)
+  if (without > 0)
     to.say(fmt::format(
-        "{} others are the best values of models that miss the truth by too much to bound "
-        "them: no interval is known for these.",
-        loose));
+        "{} of {} fitted parameters have no interval: they ended at a bound, were not determined, "
+        "or belong to models that miss the truth by too much to bound them ({}).",
+        without, values, number_or_none(loose)));
+  if (without > 0)
+    to.say(
+        "Shifts leave these out, but for forms that are the truth to the last digits at a bound.");
   if (error > 0)
     to.say(
         fmt::format("The random walks' noise shifts a fitted roughness by at most {:.1g}.", error));
@@ -376,9 +374,9 @@ std::vector<CrossSentence> sentences_of_forms(const CrossFitRows& r) {
         const auto s = shifts(cases, parameter);
         if (s.all == 0) return;
         parts.push_back(s ? fmt::format("{} of {} shifts {}", name, group.name, span(s, said))
-                          : fmt::format("{} of {} ends at its bounds", name, group.name));
+                          : fmt::format("{} of {} has no interval", name, group.name));
         if (s && s.at_bound > 0)
-          parts.push_back(fmt::format("{} of {} values ended at a bound", s.at_bound, s.all));
+          parts.push_back(fmt::format("{} of {} values have no interval", s.at_bound, s.all));
       };
       tell("roughness", "Roughness", signed_number);
       tell("f0", "F0", signed_percent);

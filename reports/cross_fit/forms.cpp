@@ -250,8 +250,7 @@ bool CrossCase::is_dielectric() const {
   return material.starts_with("IOR ");
 }
 bool CrossCase::is_determined(const CrossValue& v) const {
-  return std::isfinite(v.fitted) && (v.status == ParameterStatus::free ||
-                                     v.status == ParameterStatus::unbounded || log_rms < 1e-6);
+  return std::isfinite(v.fitted) && (v.status == ParameterStatus::free || log_rms < 1e-6);
 }
 const CrossValue* CrossCase::find(std::string_view parameter, std::string_view channel) const {
   const auto it = std::ranges::find_if(values, [&](const CrossValue& v) {

@@ -74,11 +74,14 @@ inline constexpr auto description<PublishedFit> = FieldList{
     Field{"tail", &PublishedFit::tail, "exponent of its tail, as published; of GGX it is 2"},
     Field{"beckmann", &PublishedFit::beckmann, "roughness of Beckmann's, as published"},
     Field{"ggx_roughness", &PublishedFit::ggx_roughness, "of GGX fitted to it"},
-    Field{"ggx_log_rms", &PublishedFit::ggx_log_rms, "residual of ln f that GGX leaves"},
+    Field{"ggx_log_rms", &PublishedFit::ggx_log_rms,
+          "residual of ln f that GGX leaves, with height-correlated Smith"},
     Field{"gtr_roughness", &PublishedFit::gtr_roughness, "of GTR fitted to it"},
-    Field{"gamma", &PublishedFit::gamma, "of GTR fitted to it; of GGX it is 2"},
-    Field{"gamma_determined", &PublishedFit::gamma_determined, "else it ended at its bound"},
-    Field{"gtr_log_rms", &PublishedFit::gtr_log_rms, "residual of ln f that GTR leaves"}};
+    Field{"gamma", &PublishedFit::gamma,
+          "of GTR fitted to it; of GGX it is 2; null: it could be any"},
+    Field{"gamma_determined", &PublishedFit::gamma_determined, "else it has no interval"},
+    Field{"gtr_log_rms", &PublishedFit::gtr_log_rms,
+          "residual of ln f that GTR leaves, with its own height-correlated Smith"}};
 static_assert(describes_every_member<PublishedFit>());
 
 template <>
@@ -94,7 +97,8 @@ inline constexpr auto description<CrossRange> = FieldList{
           "shift over the roughnesses, of F0 as a part of the truth; null: no fit shows it"},
     Field{"most", &CrossRange::most, "the same"},
     Field{"fits", &CrossRange::fits, "values that were fitted, one a channel"},
-    Field{"at_bound", &CrossRange::at_bound, "of them at a bound, or not determined"}};
+    Field{"at_bound", &CrossRange::at_bound,
+          "of them without an interval: at a bound, not determined, or not bounded"}};
 
 template <>
 inline constexpr auto description<WithoutRows> = FieldList{

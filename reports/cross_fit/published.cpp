@@ -70,8 +70,9 @@ PublishedFit fitted(const Published& p, std::size_t bins) {
   o.intervals = Intervals::independent;
   o.bin_sensitivity = false;
   o.fixed = {index};
-  const auto with = [&](std::string_view ndf) {  // all else as it was published
-    auto spec = model_of_lobe(ndf, "cook_torrance", std::string(fresnel) + ".weighted");
+  const auto with = [&](std::string_view ndf) {  // and its own Smith, as it is shipped
+    auto spec = model_of_lobe(ndf, fmt::format("smith_{}.correlated", ndf),
+                              std::string(fresnel) + ".weighted");
     spec.diffuse = "lambert";
     o.model = to_text(spec);
     return fit(slice, o).document;

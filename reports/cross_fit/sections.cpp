@@ -30,7 +30,7 @@ std::vector<Part> matrices(const Pictures& p) {
       "picture",
       {Prose{
            "Each row is a form that is fitted, each column the truth that it is fitted to. A cell "
-           "is empty where that form was not fitted, or where most of its fits end at a bound.",
+           "is empty where that form was not fitted, or where most of its fits have no interval.",
            "small muted"},
        c}}};
 }
@@ -67,7 +67,8 @@ Section over_roughness_of(const CrossFitReport& r) {
   sentences.look = "";
   return {"Over roughness",
           "The shift of each parameter that the form causes. F0 of metals is the mean of the "
-          "channels. Points at a bound are left out. Where light meets several facets, bars show "
+          "channels. Points without an interval are left out. Where light meets several facets, "
+          "bars show "
           "the uncertainty of the random walks; the exact form of single scattering is dashed. "
           "All of this is by the log metric on a slice to 80°.",
           {c, Subtitle{"Each in a sentence"}, sentences}};
@@ -136,15 +137,15 @@ Section ranges_by_metric(const CrossFitRows& all) {
         static_cast<std::size_t>(std::ranges::find(across, column(x)) - across.begin()) + 1;
     (*row)[k] = Cell(std::isfinite(x.least) ? fmt::format("{} to {}{}", say(x.least), say(x.most),
                                                           x.at_bound ? "*" : "")
-                                            : "at its bounds",
-                     x.at_bound ? fmt::format("{} of {} at a bound", x.at_bound, x.fits) : "");
+                                            : "no interval",
+                     x.at_bound ? fmt::format("{} of {} without", x.at_bound, x.fits) : "");
   }
   c.slots = {std::move(tables)};
   c.look = "";
   return {"What a shift depends on",
           "The range of a parameter's shift over the roughnesses, by metric and by the directions "
           "that were measured. The log metric weighs all directions alike, the cosine-weighted one "
-          "follows the bright peak. *: fits that ended at a bound are left out.",
+          "follows the bright peak. *: fits without an interval are left out.",
           {c}};
 }
 
@@ -158,12 +159,14 @@ Section published_fits_of(const CrossFitRows& all) {
     t.add(f.material, two(f.width), two(f.tail), two(f.beckmann), two(f.ggx_roughness),
           two(f.ggx_log_rms), two(f.gtr_roughness),
           significant(f.gamma, 2) + (f.gamma_determined ? "" : "*"), two(f.gtr_log_rms));
-  return {"Measured materials",
-          "Every fifth material of the MERL database. Löw, Kronander, Ynnerman and Unger published "
-          "its highlight in 2012 (green, metric E2; doi:10.1145/2077341.2077350); here GGX and GTR "
-          "replace its distribution over the slice to 80°. GGX's tail has the exponent 2; smaller "
-          "is longer. *: gamma ended at its bound.",
-          {t}};
+  return {
+      "Measured materials",
+      "Every fifth material of the MERL database. Löw, Kronander, Ynnerman and Unger published "
+      "its highlight in 2012 (green, metric E2; doi:10.1145/2077341.2077350); here GGX and GTR, "
+      "each with its own height-correlated Smith, replace its distribution and its V-shaped "
+      "grooves over the slice to 80°. GGX's tail has the exponent 2; smaller "
+      "is longer. *: gamma has no interval.",
+      {t}};
 }
 
 Section how(const CrossFitRows& all) {

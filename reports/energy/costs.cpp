@@ -108,6 +108,33 @@ float single(const Point& p) {
   return d.num * v.num / (d.den * v.den) * Schlick<float>(std::array{p.f0})(p.angles);
 }
 
+/// Time of a light and view, as it is and compensated.
+struct CompensationTime {
+  std::string_view id;
+  Timing without, with;
+};
+std::vector<CompensationTime> measured_times() {
+  const Texture e(0.3F), b(0.01F), average(0.3F);
+  const auto kulla_conty = [&](const Point& p) {
+    return KullaContyLobe<float>::apply(std::array{
+        e(p.alpha, p.nol), e(p.alpha, p.nov), average.along(p.alpha), schlick_average(p.f0)})[0];
+  };
+  const auto split_sum = [&](const Point& p) {
+    return p.f0 * e(p.alpha, p.nov) + b(p.alpha, p.nov);
+  };
+  const Timing direct = per_point(single), image = per_point(split_sum);
+  return {
+      {"single", direct, direct},
+      {"kulla_conty", direct,
+       per_point([&](const Point& p) { return single(p) + kulla_conty(p); })},
+      {"turquin", direct, per_point([&](const Point& p) {
+         return Turquin<float>::apply(std::array{single(p), e(p.alpha, p.nov), p.f0})[0];
+       })},
+      {"fdez_aguera", image, per_point([&](const Point& p) {
+         return FdezAguera<float>::apply(std::array{e(p.alpha, p.nov), b(p.alpha, p.nov), p.f0})[0];
+       })}};
+}
+
 }  // namespace
 
 std::vector<CompensationWork> compensation_work() {
@@ -123,30 +150,15 @@ std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMateria
   std::vector<CompensationCost> out;
   const auto errors = compensation_errors(materials);
   const auto all = compensation_work();
-  const Texture e(0.3F), b(0.01F), average(0.3F);
-  const auto add = [&](std::string_view id, const Timing& without, const Timing& with) {
+  // Reports that stand beside each other have the same times.
+  static const auto times = measured_times();
+  for (const auto& [id, without, with] : times) {
     const auto& error = *std::ranges::find(errors, id, &CompensationError::id);
     const auto& work = *std::ranges::find(all, id, &CompensationWork::id);
     out.push_back({id, work.operations, work.lookups, work.bytes, without.ns, without.spread_ns,
                    with.ns, with.spread_ns, error.worst, error.rms, error.worst_at,
                    error.gold_rms});
-  };
-  const auto kulla_conty = [&](const Point& p) {
-    return KullaContyLobe<float>::apply(std::array{
-        e(p.alpha, p.nol), e(p.alpha, p.nov), average.along(p.alpha), schlick_average(p.f0)})[0];
-  };
-  const auto split_sum = [&](const Point& p) {
-    return p.f0 * e(p.alpha, p.nov) + b(p.alpha, p.nov);
-  };
-  const Timing direct = per_point(single), image = per_point(split_sum);
-  add("single", direct, direct);
-  add("kulla_conty", direct, per_point([&](const Point& p) { return single(p) + kulla_conty(p); }));
-  add("turquin", direct, per_point([&](const Point& p) {
-        return Turquin<float>::apply(std::array{single(p), e(p.alpha, p.nov), p.f0})[0];
-      }));
-  add("fdez_aguera", image, per_point([&](const Point& p) {
-        return FdezAguera<float>::apply(std::array{e(p.alpha, p.nov), b(p.alpha, p.nov), p.f0})[0];
-      }));
+  }
   return out;
 }
 

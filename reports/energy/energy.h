@@ -252,7 +252,7 @@ EnergyOptions compensation_domain();
 std::vector<CompensationError> compensation_errors(const std::vector<EnergyMaterial>&);
 /// "single", with nothing, "kulla_conty", "turquin" and "fdez_aguera".
 std::vector<CompensationWork> compensation_work();
-/// Costs of the compensations beside those errors.
+/// Costs of the compensations beside those errors; times are measured once in a process.
 std::vector<CompensationCost> compensation_costs(const std::vector<EnergyMaterial>&);
 std::vector<SingleLight> single_lights(const EnergyOptions&,
                                        const std::function<void(double)>& done);

@@ -263,10 +263,13 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
   }
   to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
            fmt::format("{} forms exceed it", of_all(makers, makes.size())),
-           fmt::format("{} forms reflect more light than arrives, at some roughness and angle.{} "
-                       "The others reflect "
-                       "{} of it at most.",
-                       of_all(makers, makes.size()), words, rounded_up(largest, 4)));
+           fmt::format("{} forms reflect more light than arrives, at some roughness and "
+                       "angle.{} The others {}.",
+                       of_all(makers, makes.size()), words,
+                       largest > 1
+                           ? fmt::format("exceed it by {} at most, within their integral's error",
+                                         percent_at_most(largest - 1))
+                           : fmt::format("reflect {} of it at most", rounded_up(largest, 4))));
 }
 
 void energy_does_not_stay(Findings& to, const EnergyRows& r) {
@@ -284,7 +287,7 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
 
 void fixed_coat(Findings& to, const EnergyRows& r) {
   const auto *coat = find_form(r.forms, "masking.disney_coat, gamma 1"),
-             *smith = find_form(r.forms, "masking.smith_gtr.separable, gamma 1");
+             *smith = find_form(r.forms, "masking.smith_gtr.correlated, gamma 1");
   if (!coat || !smith) return;
   double most = 0;
   std::size_t at = 0;
@@ -297,8 +300,8 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
            "Burley 2012, Physically-Based Shading at Disney", verdict_on_small(most),
            fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
            fmt::format(
-               "largest error at {}. Before Fresnel the coat reflects {}; with its own Smith "
-               "masking, {}.",
+               "largest error at {}. Before Fresnel the coat reflects {}; with height-correlated "
+               "Smith of its own tail, {}.",
                place(row.roughness, row.mu), percent(row.albedo), percent(smith->rows[at].albedo)));
 }
 

@@ -23,8 +23,8 @@ struct Facts {
     std::optional<double> model_ns{};
   };
   std::optional<Setting> setting{};
-  /// Time of a sample in float [ns]: of a term in columns that stay in cache; of a whole model, fused, in such columns, and composed of its
-  /// terms in columns that do not.
+  /// Time of a sample in float [ns]: of a term in columns that stay in cache; of a whole model, composed of its terms, in such columns
+  /// and in columns that do not.
   struct Time {
     std::string id;  ///< of the term, or the model's spec
     double ns, spread;
@@ -80,7 +80,8 @@ struct Facts {
     double least_f0 = 0;    ///< of a lobe
   };
   std::vector<Precision> precision{};
-  /// Measured materials by the tail of their highlight, (1 + …)^−γ, as others published it, each fitted with GGX and with GTR.
+  /// Measured materials by the tail of their highlight, (1 + …)^−γ, as others published it, each fitted with GGX and with GTR, either
+  /// with its own height-correlated Smith.
   struct Tails {
     std::size_t materials, longer;    ///< longer: γ below 2, which is GGX's
     double gamma;                     ///< that GTR finds, median of those that it determines

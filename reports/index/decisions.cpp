@@ -117,7 +117,7 @@ void masking(std::vector<Decision>& to, const Facts& f) {
 void distribution(std::vector<Decision>& to, const Facts& f) {
   // A distribution by itself writes a fraction, which a whole model divides once with its masking.
   const auto *ggx = time_of(f.whole, "ggx/smith_ggx.correlated/schlick"),
-             *gtr = time_of(f.whole, "gtr/smith_ggx.correlated/schlick");
+             *gtr = time_of(f.whole, "gtr/smith_gtr.correlated/schlick");
   if (!ggx || !gtr || !f.tails) return;
   const auto& t = *f.tails;
   const auto cheap = candidate(ggx->id, 0, *ggx), other = candidate(gtr->id, 0, *gtr);
@@ -127,8 +127,9 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
        fmt::format("off by {} beside published fits; {} measured materials have a longer tail",
                    factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
        std::string(no_more),
-       fmt::format("γ is fitted (median {:.2g}, where it is determined): GTR, {}, {}", t.gamma,
-                   factor(t.gtr_log_rms), cost_text(other, cheap))});
+       fmt::format(
+           "γ is fitted (median {:.2g}, where it is determined): GTR with its own Smith, {}, {}",
+           t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
 // --- Fresnel ---
@@ -411,10 +412,8 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
                                         delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("{}energy gain is acceptable: {}, {}, up to {} of the light",
-                           most_light(*form_of(taken->form)) > no_light_made ? "more " : "",
-                           in_text(nearer->form), delta_at_most(nearer->error),
-                           made(*form_of(nearer->form)));
+    d.unless = fmt::format("up to {} of the light may leave: {}, {}", made(*form_of(nearer->form)),
+                           in_text(nearer->form), delta_at_most(nearer->error));
   else if (!below_lobe && taken->form != cheap_id)
     d.unless = "the surface is smooth: Lambert";
   to.push_back(std::move(d));

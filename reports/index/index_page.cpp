@@ -333,6 +333,10 @@ std::string index_page_html(const ReportIndex& i) {
                         "masking up to RMS {} of G₂. Where every form leaves more, the nearest is "
                         "taken.",
                         plain(side_by_side), plain(small_masking_error)),
+            fmt::format("A diffuse form that reflects more than {} of the light in a direction is "
+                        "left out. Where every form does, the one that reflects least is taken, "
+                        "whatever its ΔE.",
+                        page::percent(no_light_made, 4)),
             "Among forms that take the same measured time, the nearest is taken, or the usual "
             "shortcut itself. GGX and the split sum are judged by no threshold: they are "
             "what people ship.",

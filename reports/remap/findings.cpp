@@ -76,24 +76,23 @@ Duel duel(const std::vector<const RemapRow*>& ours, const std::vector<const Rema
 
 /// 'k = (r+1)²/8 is right for direct light, r²/2 for image-based'
 void verdict_on_k(Findings& to, const RemapRows& r) {
-  const auto ours = rows_of(r, form_id::direct_k, form_id::separable_smith),
-             others = rows_of(r, form_id::image_k, form_id::separable_smith);
+  const auto ours = rows_of(r, form_id::direct_k, form_id::smith),
+             others = rows_of(r, form_id::image_k, form_id::smith);
   if (ours.empty() || others.empty()) return;
-  const auto one = duel(ours, others), two = duel(rows_of(r, form_id::direct_k, form_id::smith),
-                                                  rows_of(r, form_id::image_k, form_id::smith));
-  const std::size_t nearer = one.nearer + two.nearer;
+  const auto d = duel(ours, others);
   to.judge("k = (r+1)²/8 is right for direct light, r²/2 for image-based", "",
-           verdict(nearer >= one.all + two.all, 2 * nearer >= one.all + two.all),
+           verdict(d.nearer >= d.all, 2 * d.nearer >= d.all),
            fmt::format("G₂ off by {:.2g} against {:.2g}, RMS",
-                       *overall_rms(r, form_id::direct_k, form_id::separable_smith),
-                       *overall_rms(r, form_id::image_k, form_id::separable_smith)),
+                       *overall_rms(r, form_id::direct_k, form_id::smith),
+                       *overall_rms(r, form_id::image_k, form_id::smith)),
            fmt::format(
                "Smith's masking knows no kind of light; the first k is nearer at {} roughnesses.",
-               of_all(one.nearer, one.all)));
+               of_all(d.nearer, d.all)));
   for (const double at : {0.1, 0.3})
     if (const auto* a = row_at(ours, at))
       to.say(fmt::format(
-          "A surface of roughness {:g} is masked by Schlick's k = (r+1)²/8 like {} by exact Smith.",
+          "A surface of roughness {:g} is masked by Schlick's k = (r+1)²/8 like {} by "
+          "height-correlated Smith.",
           at,
           a->by_g2.at_end ? a->by_g2.roughness < 0.5 ? "the smoothest" : "the roughest"
                           : fmt::format("one of roughness {:.2f}", a->by_g2.roughness)));
@@ -123,9 +122,9 @@ void wrong_place(Findings& to, const RemapRows& r) {
             "image-based light"}})
     if (const auto* use = find(form, light))
       to.say(
-          fmt::format("Schlick's k for {} reflects {} of {} than exact Smith, at roughness {:g} "
-                      "and cosine {:g}.",
-                      k, beside(use->value / use->separable), of, rough, mu));
+          fmt::format("Schlick's k for {} reflects {} of {} than height-correlated Smith, at "
+                      "roughness {:g} and cosine {:g}.",
+                      k, beside(use->value / use->correlated), of, rough, mu));
 }
 
 /// 'k = α/2 is too bright at grazing angles', and what is taken in its place.

@@ -41,7 +41,7 @@ Section each_form(const RemapRows& all, const Pictures& p) {
   const auto roughness = shown(all);
   Choice maps;
   maps.controls = {{"form", "Form", "schlick_ggx.direct", true},
-                   {"reference", "Reference", "separable"},
+                   {"reference", "Reference", "correlated"},
                    {"at", "Roughness", "roughness " + nearest(roughness, 0.3), true}};
   Slot formulas;
   for (const auto& f : all.forms) {
@@ -69,7 +69,7 @@ Section each_form(const RemapRows& all, const Pictures& p) {
   maps.slots = {std::move(errors), std::move(formulas)};
   Choice curves;
   curves.controls = {{"distribution", "Distribution", "GGX"},
-                     {"reference", "Reference", "separable"},
+                     {"reference", "Reference", "correlated"},
                      {"by", "Behaves like, by", "G2"},
                      {"roughness", "Roughness of E", nearest(roughness, 0.3), true}};
   for (const char* family : {"behaves_like", "rms", "furnace"})
@@ -82,7 +82,7 @@ Section each_form(const RemapRows& all, const Pictures& p) {
   for (const auto& f : all.forms) {
     auto& row = like.rows.emplace_back(std::vector{form_cell(f.form)});
     for (const double r : roughness) {
-      const auto* found = row_of(all, f.form, "separable", r);
+      const auto* found = row_of(all, f.form, "correlated", r);
       row.push_back(found ? like_text(found->by_g2) : "");
     }
   }
@@ -96,7 +96,8 @@ Section each_form(const RemapRows& all, const Pictures& p) {
       "beyond. “By G2” compares masking only, over NoL and NoV from 0.05 on. “By E” compares "
       "distribution and masking together, over μ from 0.1 on. On smooth surfaces E hardly depends "
       "on roughness.",
-      {maps, curves, Subtitle{"The roughness of separable Smith that each is like, by G2"}, like}};
+      {maps, curves, Subtitle{"The roughness of height-correlated Smith that each is like, by G2"},
+       like}};
 }
 
 Section wrong_place(const RemapRows& all, const Pictures& p) {
@@ -199,7 +200,7 @@ page::Page report_page(const RemapReport& r) {
            r.findings.sentences};
   out.full = r.full;
   out.first = opening(r.pictures, "behaves_like",
-                      {{"distribution", "GGX"}, {"reference", "separable"}, {"by", "G2"}});
+                      {{"distribution", "GGX"}, {"reference", "correlated"}, {"by", "G2"}});
   out.sections = {each_form(r.rows, r.pictures), wrong_place(r.rows, r.pictures),
                   in_place_of_vf(r.pictures), every_form(r.rows)};
   out.most_shipped = {"schlick_ggx.direct",        "smith_ggx.correlated",

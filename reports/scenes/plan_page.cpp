@@ -261,9 +261,10 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                                    : "No set of forms keeps the tolerance here, with the budget or "
                                      "without."});
   const std::string failed =
-      m.passed_over ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set")) +
-                          (m.failed ? " " + capital(why_passed_over(m, p.cost)) + "." : "")
-                    : "";
+      (m.passed_over ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set"))
+                     : std::string()) +
+      (m.failed ? " " + capital(why_passed_over(m, p.cost)) + "." : "") +
+      (m.is_unlit() ? " No light comes to any of them: every set of forms looks the same." : "");
   s.parts.emplace_back(Prose{
       m.bounded
           ? fmt::format("Checked on {} fresh points: less than {} of all exceed the limit, with a "
@@ -341,7 +342,11 @@ std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
   const auto at = cost == scene::Cost::time
                       ? fmt::format("{:.3g} ns", f.ns)
                       : counted(static_cast<std::size_t>(std::round(f.ops)), "operation");
-  const auto which = fmt::format("the cheapest{}, at {},", m.passed_over > 1 ? " of them" : "", at);
+  const auto which = fmt::format("the {}, at {},",
+                                 m.passed_over > 1    ? "cheapest of them"
+                                 : m.passed_over == 1 ? "cheapest"
+                                                      : "next cheaper set",
+                                 at);
   if (f.fails_at_worst())
     return fmt::format("{} differs by {} at its worst point, where a plan may differ by {}", which,
                        rounded_up(f.error.worst), rounded_down(f.most_worst));

@@ -55,7 +55,7 @@ std::size_t how_many(const Rows& rows, const std::function<bool(const FresnelRow
 }
 
 void below_one_percent(Findings& to, const SchlickRows& r) {
-  const auto outside = by_index(r, "dielectric", form_id::schlick),
+  const auto outside = rows_with(r, "dielectric", form_id::schlick),
              metals = rows_with(r, "metal", form_id::schlick);
   const auto* g = glass(outside);
   if (!g || metals.empty()) return;
@@ -243,10 +243,14 @@ void three_wavelengths(Findings& to, const SchlickRows& r) {
                   rounded_up(most), of_all(dearer, metals.size())));
 }
 
-/// F0 of what lies in the tables of refractive indices: at 550 nm, and of metals the colour's channels.
-void ranges_of_f0(Findings& to) {
-  const auto judge = [&](std::string_view claim, std::string_view what, double low, double high,
-                         const std::vector<double>& all) {
+/// F0 of what was measured, by the rows: of dielectrics at one wavelength, of metals in each channel.
+void ranges_of_f0(Findings& to, const SchlickRows& r) {
+  const auto judge = [&](std::string_view claim, std::string_view kind, std::string_view what,
+                         double low, double high) {
+    std::vector<double> all;
+    for (const auto* row : rows_with(r, kind, form_id::schlick))
+      if (!row->name.starts_with("IOR ")) all.push_back(f0_of_index({row->eta, row->k}));
+    if (all.empty()) return;
     const auto within = static_cast<std::size_t>(
         std::ranges::count_if(all, [&](double f0) { return low <= f0 && f0 <= high; }));
     const auto [least, most] = std::ranges::minmax_element(all);
@@ -256,13 +260,8 @@ void ranges_of_f0(Findings& to) {
                          percent(static_cast<double>(within) / static_cast<double>(all.size()), 2),
                          what, *least, *most));
   };
-  std::vector<double> of_dielectrics, of_metals;
-  for (const auto& m : dielectrics()) of_dielectrics.push_back(f0_of_index(m.at(550)));
-  for (const auto& m : metals())
-    for (const double f0 : reflectance_rgb(m, 1))
-      of_metals.push_back(f0);  // above 1 where the colour lies beyond sRGB
-  judge("most non-metals have F0 0.02 to 0.04", "dielectrics", 0.02, 0.04, of_dielectrics);
-  judge("most metals have F0 0.7 to 1.0", "channels of metals", 0.7, 1, of_metals);
+  judge("most non-metals have F0 0.02 to 0.04", "dielectric", "dielectrics", 0.02, 0.04);
+  judge("most metals have F0 0.7 to 1.0", "metal", "channels of metals", 0.7, 1);
 }
 
 }  // namespace
@@ -273,7 +272,7 @@ Findings findings(const SchlickRows& r) {
   three_wavelengths(all, r);
   below_one_percent(all, r);
   only_near_one(all, r);
-  ranges_of_f0(all);
+  ranges_of_f0(all, r);
   from_inside(all, r);
   metal_forms(all, r);
   variants(all, r);

@@ -22,6 +22,10 @@ double exceedance_bound(std::size_t exceeding, std::size_t n, double confidence)
                        static_cast<double>(n - exceeding));
 }
 
+double exceedance_lower_bound(std::size_t exceeding, std::size_t n, double confidence) {
+  return 1 - exceedance_bound(n - exceeding, n, confidence);
+}
+
 std::size_t draws_needed(double quantile, double confidence) {
   return static_cast<std::size_t>(std::ceil(std::log1p(-confidence) / std::log(quantile)));
 }

@@ -12,6 +12,9 @@ namespace gonio::scene {
 ///   B⁻¹(confidence; x + 1, n − x)                                               [Clopper & Pearson 1934]
 double exceedance_bound(std::size_t exceeding, std::size_t n, double confidence);
 
+/// Lower bound of it: with that confidence it is more.
+double exceedance_lower_bound(std::size_t exceeding, std::size_t n, double confidence);
+
 /// Least number of draws of which, if none is beyond a limit, the quantile is shown to keep it.
 ///
 ///   n ≥ ln(1 − confidence)/ln(quantile)

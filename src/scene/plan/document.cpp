@@ -91,26 +91,28 @@ struct Description<scene::Candidate> {
         field("samples", at(&C::error, &Judgement::samples),
               "points that sets are compared on, which these errors are of", or_default),
         field("failed", if_there(&C::failed),
-              "errors on the fresh points, where a set that keeps the tolerance here does not")};
+              "errors on the fresh points of a set that was checked there and failed")};
   }
 };
 
 template <>
-struct Description<scene::FailedSet> {
+struct Description<scene::JudgedSet> {
   static constexpr auto fields() {
-    using S = scene::FailedSet;
+    using S = scene::JudgedSet;
     using scene::Judgement;
-    return FieldList{field("forms", &S::forms, "by effect"),
-                     field("ns", &S::ns, "of f of one direction of light", Numbers{}),
-                     field("ops", &S::ops, "operations of the same", amounts),
-                     field("worst", at(&S::error, &Judgement::worst),
-                           "greatest difference on the fresh points", amounts),
-                     field("most_worst", &S::most_worst,
-                           "what that may be, for a verification to agree", amounts),
-                     field("exceeding_bound", if_there(at(&S::error, &Judgement::bound)),
-                           "upper bound of the share beyond the limit", shares),
-                     field("most_exceeding", &S::most_exceeding,
-                           "what that may be, for a verification to agree", shares)};
+    return FieldList{
+        field("forms", &S::forms, "by effect"),
+        field("ns", &S::ns, "of f of one direction of light", Numbers{}),
+        field("ops", &S::ops, "operations of the same", amounts),
+        field("worst", at(&S::error, &Judgement::worst), "greatest difference", amounts),
+        field("most_worst", &S::most_worst, "what that may be, for a verification to agree",
+              amounts),
+        field("exceeding_bound", if_there(at(&S::error, &Judgement::bound)),
+              "upper bound of the share beyond the limit", shares),
+        field("most_exceeding", &S::most_exceeding, "what that may be, for a verification to agree",
+              shares),
+        field("samples", at(&S::error, &Judgement::samples), "points that these errors are of",
+              or_default)};
   }
 };
 
@@ -180,7 +182,9 @@ struct Description<scene::MaterialPlan> {
         field("samples", checked(&Judgement::samples), "fresh points"),
         field("passed_over", &M::passed_over, "cheaper sets that failed on the fresh points",
               or_default),
-        field("failed", if_there(&M::failed), "the cheapest of these, and what it failed by"),
+        field("failed", if_there(&M::failed),
+              "the cheapest of these, or else the next cheaper set on the points that sets are "
+              "compared on, and what it failed by"),
         field("only_unseen", &M::only_unseen,
               "no set keeps the tolerance both where sets are compared and on fresh points: only "
               "what changes no point by a hundredth of the limit is dropped",

@@ -30,6 +30,12 @@ constexpr std::uint64_t choosing = 1, checking = 2;
 constexpr double least_spread = 0.03;
 /// Part of the greatest difference that the check leaves unused: no draw shows the very worst point.
 constexpr double reserve = 0.9;
+/// Confidence with which a set is ruled out: it cannot come back.
+constexpr double surely = 0.999;
+/// Fresh points by which most sets that fail do.
+constexpr std::size_t glance = 8192;
+/// Fresh points are drawn up to so many times as many, where fewer do not decide.
+constexpr std::size_t most_times = 16, most_fresh = std::size_t{1} << 20;
 /// Part of the limit that a proved bound may take without being measured.
 constexpr double proved_share = 0.1;
 /// Part of the limit that nobody sees: what changes every point by less changes nothing.
@@ -71,7 +77,10 @@ class MaterialPlanner {
         exact_(look_.surface(look_.exact())),
         everything_(look_.surface(look_.everything())),
         shipped_(look_.surface(in_float(look_.shipped()))),
-        reference_(scene_, seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_) {
+        reference_(scene_, seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_),
+        most_exceeding_(share_that_passes(scene_.tolerance.quantile,
+                                          samples_of_verification(scene_),
+                                          scene_.tolerance.confidence)) {
     for (const auto& object : scene_.objects)
       if (lit.same_as[object.material] == material) join(reached_angles(scene_, object));
   }
@@ -107,6 +116,12 @@ class MaterialPlanner {
     auto d = compared_with(s).bounds_of(scene_, s);
     return judge(d, scene_.tolerance);
   }
+  /// False where these points rule it out that a verification agrees.
+  bool may_pass(const Judgement& j, double most_worst) const {
+    return j.worst <= most_worst &&
+           exceedance_lower_bound(j.exceeding, j.samples, surely) <= most_exceeding_;
+  }
+  bool may_keep(const Judgement& j) const { return may_pass(j, scene_.tolerance.max); }
   /// All exact but one.
   Surface with(Effect e, Form form) const { return with(e, form, e, form); }
   /// All exact but two.
@@ -139,7 +154,7 @@ class MaterialPlanner {
     const Surface looked_up = with(Effect::environment, offer.forms.front());
     const auto keeps_at = [&](std::size_t n) {
       under_sky_.emplace(Reference::under_sky(scene_, drawer_, choosing, 0, n, exact_));
-      return scene_.budget_ns || judged(looked_up).keeps(scene_.tolerance);
+      return scene_.budget_ns || may_keep(judged(looked_up));
     };
     // A few points tell most that it may not be.
     const bool ask_few = !scene_.budget_ns && few < options_.samples;
@@ -175,9 +190,8 @@ class MaterialPlanner {
         const auto may_be = [&](Form form) {
           if (form == offer.forms.back() || scene_.budget_ns) return true;
           if (e == Effect::environment) return looks_up;
-          return judged(with(e, form)).keeps(scene_.tolerance) ||
-                 (looks_up &&
-                  judged(with(Effect::environment, lookup, e, form)).keeps(scene_.tolerance));
+          return may_keep(judged(with(e, form))) ||
+                 (looks_up && may_keep(judged(with(Effect::environment, lookup, e, form))));
         };
         // No shader takes double for so little, whatever a noisy clock says.
         const bool rounds_unseen =
@@ -228,8 +242,8 @@ class MaterialPlanner {
     return s;
   }
 
-  /// Errors of forms may cancel: of all sets of forms that shaders have, those that keep the tolerance though one of their forms by
-  /// itself does not.  A few points tell of most that they do not.
+  /// Errors of forms may cancel: of all sets of forms that shaders have, those that may keep the tolerance though one of their forms
+  /// by itself does not.  A few points tell of most that they do not.
   void add_sets_whose_errors_cancel() {
     constexpr std::size_t few = 512;
     FormsLeft all = left_;
@@ -250,19 +264,15 @@ class MaterialPlanner {
       }
     if (found.empty()) return;
     const Reference first(scene_, drawer_.draw(choosing, 0, few), exact_);
-    const double most_beyond =
-        (1 - scene_.tolerance.quantile) * static_cast<double>(options_.samples);
     tbb::parallel_for(std::size_t{0}, found.size(), [&](std::size_t i) {
       if (!surfaces[i].image_lit) {
         auto d = first.bounds_of(scene_, surfaces[i]);
-        const Judgement j = judge(d, scene_.tolerance);
-        if (j.worst > scene_.tolerance.max || static_cast<double>(j.exceeding) > most_beyond)
-          return;
+        if (!may_keep(judge(d, scene_.tolerance))) return;
       }
       found[i].error = judged(surfaces[i]);
     });
     for (std::size_t i = 0; i < found.size(); ++i)
-      if (found[i].error.samples > 0 && found[i].error.keeps(scene_.tolerance)) {
+      if (found[i].error.samples > 0 && may_keep(found[i].error)) {
         candidates_.push_back(found[i]);
         surfaces_.push_back(std::move(surfaces[i]));
       }
@@ -283,14 +293,15 @@ class MaterialPlanner {
     ns_exact_ = times.back().ns;
   }
 
-  double cost(const Candidate& c) const { return options_.cost == Cost::time ? c.ns : c.ops; }
+  /// Of a candidate, or a judged set.
+  double cost(const auto& c) const { return options_.cost == Cost::time ? c.ns : c.ops; }
   double spread(const Candidate& c) const { return options_.cost == Cost::time ? c.spread() : 0; }
 
-  /// Those that keep the tolerance, best first: the cheapest, and before it those as cheap that keep fewer effects.
+  /// Those that may keep the tolerance, best first: the cheapest, and before it those as cheap that keep fewer effects.
   std::vector<const Candidate*> in_order() const {
     std::vector<const Candidate*> left, order;
     for (const auto& c : candidates_)
-      if (c.error.keeps(scene_.tolerance)) left.push_back(&c);
+      if (may_keep(c.error)) left.push_back(&c);
     std::ranges::sort(left, [&](auto* a, auto* b) {
       return std::tuple(cost(*a), a->forms.form) < std::tuple(cost(*b), b->forms.form);
     });
@@ -306,26 +317,36 @@ class MaterialPlanner {
     return order;
   }
 
-  /// Judgement on fresh points; those with the many directions that a lookup is compared with are drawn once.
-  Judgement checked(const Surface& s) {
-    if (!s.image_lit) return judge_fresh(scene_, drawer_, checking, options_.fresh, exact_, s);
-    if (!fresh_under_sky_)
-      fresh_under_sky_.emplace(Reference::under_sky(scene_, drawer_, checking, 0,
-                                                    fresh_points(scene_, options_, s), exact_));
-    auto d = fresh_under_sky_->bounds_of(scene_, s);
-    return judge(d, scene_.tolerance);
+  JudgedSet judged_set(const Forms& forms, double ns, double ops) const {
+    return {forms, ns, ops, {}, most_exceeding_, reserve * scene_.tolerance.max};
   }
-  /// A set as it was checked, with what it may err by.
-  FailedSet checked(const Candidate& c) {
+  /// A set by fresh points: enough to decide on it.  Those with the many directions that a lookup is compared with are drawn once.
+  JudgedSet checked(const Forms& forms, const Surface& s, double ns, double ops) {
     const auto& t = scene_.tolerance;
-    return {c.forms,
-            c.ns,
-            c.ops,
-            checked(surfaces_[static_cast<std::size_t>(&c - candidates_.data())]),
-            share_that_passes(t.quantile, samples_of_verification(scene_), t.confidence),
-            reserve * t.max};
+    JudgedSet set = judged_set(forms, ns, ops);
+    const auto judge_both = [&](std::vector<double>& all, std::vector<double> own) {
+      set.error = judge(all, t);
+      set.reference_error = judge(own, t).quantile;
+    };
+    if (s.image_lit) {
+      if (!fresh_under_sky_)
+        fresh_under_sky_.emplace(Reference::under_sky(scene_, drawer_, checking, 0,
+                                                      fresh_points(scene_, options_, s), exact_));
+      auto d = fresh_under_sky_->bounds_of(scene_, s);
+      judge_both(d, fresh_under_sky_->own_error);
+      return set;
+    }
+    const std::size_t enough = options_.fresh,
+                      most = std::max(enough, std::min(most_times * enough, most_fresh));
+    FreshDifferences fresh;
+    for (std::size_t n = std::min(glance, enough);; n = n < enough ? enough : 4 * n) {
+      fresh.draw_to(std::min(n, most), scene_, drawer_, checking, exact_, s);
+      judge_both(fresh.all, fresh.own);
+      const bool fails = !may_pass(set.error, set.most_worst);
+      if (n < enough ? fails && !set.error.holds(t) : fails || passes(set) || n >= most) return set;
+    }
   }
-  static bool passes(const FailedSet& s) {
+  static bool passes(const JudgedSet& s) {
     return s.error.bound <= s.most_exceeding && !s.fails_at_worst();
   }
 
@@ -347,14 +368,10 @@ class MaterialPlanner {
   MaterialPlan chosen() {
     MaterialPlan p;
     p.effects = std::move(effects_);
-    for (auto& e : p.effects)
-      if (e.reason.empty()) e.reason = reason(e);
     p.ns_exact = ns_exact_;
     p.ops_exact = operations_of(shipped_, reference_.points);
     p.reference = look_.exact().name(Effect::compensation);
     p.bounded = look_.is_bounded();
-    auto own = reference_.own_error;
-    p.reference_error = judge(own, scene_.tolerance).quantile;
     p.coverage = drawer_.coverage();
     p.directions = static_cast<double>(reference_.points.point.size()) /
                    static_cast<double>(reference_.points.count);
@@ -367,10 +384,11 @@ class MaterialPlanner {
   /// The first that is likely to hold in a verification, too; else the first that holds here; else what changes nothing.
   void choose(MaterialPlan& p) {
     const auto order = in_order();
-    std::vector<FailedSet> all;
+    std::vector<JudgedSet> all;
     std::optional<std::size_t> holding;
     for (const auto* c : order) {
-      all.push_back(checked(*c));
+      all.push_back(checked(c->forms, surfaces_[static_cast<std::size_t>(c - candidates_.data())],
+                            c->ns, c->ops));
       const bool sure = passes(all.back());
       if (sure || (!holding && all.back().error.holds(scene_.tolerance))) holding = all.size() - 1;
       if (sure) break;
@@ -379,25 +397,38 @@ class MaterialPlanner {
     for (std::size_t i = 0; i < p.passed_over; ++i) {
       candidates_[static_cast<std::size_t>(order[i] - candidates_.data())].failed = {
           all[i].error.worst, all[i].error.bound};
-      const auto cost_of = [&](const FailedSet& s) {
-        return options_.cost == Cost::time ? s.ns : s.ops;
-      };
-      if (!p.failed || cost_of(all[i]) < cost_of(*p.failed)) p.failed = all[i];
+      if (!p.failed || cost(all[i]) < cost(*p.failed)) p.failed = all[i];
     }
     if (holding) {
-      const auto& set = all[*holding];
+      if (!p.failed) p.failed = next_cheaper(*order[*holding]);
+      settle(p, all[*holding]);
       p.holds = true;
-      p.checked = set.error;
-      take(p, look_, set.forms, set.ns, set.ops);
       return;
     }
     p.only_unseen = true;
     const auto same = nearest();
     const std::array surface{look_.surface(same)};
-    p.checked = checked(surface[0]);
+    settle(p, checked(same, surface[0], times_of(surface, reference_.points)[0].ns,
+                      operations_of(surface[0], reference_.points)));
     p.holds = p.checked.holds(scene_.tolerance);
-    take(p, look_, same, times_of(surface, reference_.points)[0].ns,
-         operations_of(surface[0], reference_.points));
+  }
+  void settle(MaterialPlan& p, const JudgedSet& set) {
+    p.checked = set.error;
+    p.reference_error = set.reference_error;
+    take(p, look_, set.forms, set.ns, set.ops);
+  }
+  /// Of the sets that the points which sets are compared on rule out, the dearest of those that are cheaper.
+  std::optional<JudgedSet> next_cheaper(const Candidate& than) const {
+    const Candidate* next = nullptr;
+    for (const auto& c : candidates_)
+      if (!may_keep(c.error) && cost(c) + spread(c) < cost(than) &&
+          (!next || std::tuple(-cost(c), c.error.exceeding) <
+                        std::tuple(-cost(*next), next->error.exceeding)))
+        next = &c;
+    if (!next) return {};
+    auto set = judged_set(next->forms, next->ns, next->ops);
+    set.error = next->error;
+    return set;
   }
   /// Forms without what changes nothing: they err by what the reference does.
   Forms nearest() const {
@@ -412,15 +443,6 @@ class MaterialPlanner {
         f[e] = cheapest;
     }
     return plain(f);
-  }
-  std::string reason(const PlannedEffect& e) const {
-    const auto unit = scene_.tolerance.metric == Metric::relative ? "" : "ΔE2000 ";
-    if (e.why == Why::proved)
-      return fmt::format("dropping it changes no point by more than {}{}, by proof", unit,
-                         rounded_up(e.error_if_dropped));
-    return fmt::format("dropping only this changes {} % of the points by more than {}{}",
-                       in_percent(1 - scene_.tolerance.quantile), unit,
-                       rounded_down(e.error_if_dropped));
   }
   void front(MaterialPlan& p) const {
     std::vector<Candidate> all = candidates_;
@@ -443,6 +465,7 @@ class MaterialPlanner {
   /// All effects that the material has, in float: what a plan's speed is compared with.
   Surface shipped_;
   Reference reference_;
+  double most_exceeding_;  ///< share beyond the limit by which a verification is likely to agree
   /// What surfaces that look the environment up are compared with, and its fresh points.
   std::optional<Reference> under_sky_, fresh_under_sky_;
   ReachedAngles reached_{{1, 0}};
@@ -478,6 +501,26 @@ std::size_t Candidate::kept() const {
 
 namespace {
 
+/// Says why each form that was measured, or proved to change little, is kept or dropped.
+void give_reasons(MaterialPlan& p, const Tolerance& t, bool has_budget) {
+  const auto unit = t.metric == Metric::relative ? "" : "ΔE2000 ";
+  for (auto& e : p.effects) {
+    if (e.why == Why::structural) continue;
+    if (e.why == Why::proved) {
+      e.reason = fmt::format("dropping it changes no point by more than {}{}, by proof", unit,
+                             rounded_up(e.error_if_dropped));
+      continue;
+    }
+    e.reason = fmt::format("dropping only this changes {} % of the points by more than {}{}",
+                           in_percent(1 - t.quantile), unit, rounded_down(e.error_if_dropped));
+    if (e.keep || e.error_if_dropped <= t.limit) continue;
+    e.reason += p.holds ? ", but with the other forms of this plan the limit is kept, as its check "
+                          "found"
+                : has_budget ? ", but the budget leaves no time for it"
+                             : ", but no set keeps the tolerance and this one is the closest";
+  }
+}
+
 /// Shares the scene's time out, and checks what each material got.
 void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
   const Scene& s = lit.scene;
@@ -498,7 +541,10 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     take(m, look, c.forms, c.ns, c.ops);
     const auto drawer = lit.drawer(index, options.directions);
     const Surface exact = look.surface(look.exact()), surface = look.surface(c.forms);
-    m.checked = judge_fresh(s, drawer, checking, fresh_points(s, options, surface), exact, surface);
+    FreshDifferences fresh;
+    fresh.draw_to(fresh_points(s, options, surface), s, drawer, checking, exact, surface);
+    m.checked = judge(fresh.all, s.tolerance);
+    m.reference_error = judge(fresh.own, s.tolerance).quantile;
     m.holds = m.checked.holds(s.tolerance);
     m.could_hold = std::ranges::any_of(
         m.front, [&](const Candidate& each) { return each.error.keeps(s.tolerance); });
@@ -563,8 +609,10 @@ Plan plan_scene(const Scene& s, const PlanOptions& asked, const std::function<vo
     if (done) done(static_cast<double>(m + 1) / static_cast<double>(s.materials.size()));
   }
   if (s.budget_ns) share(plan, lit, options);
-  for (auto& m : plan.materials)
+  for (auto& m : plan.materials) {
+    give_reasons(m, s.tolerance, s.budget_ns.has_value());
     if (!m.bounded) claim_no_bound(m);
+  }
   name_all(plan, lit);
   plan.holds = std::ranges::all_of(plan.materials, &MaterialPlan::holds);
   std::vector<std::string> specs;

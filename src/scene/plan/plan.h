@@ -53,14 +53,15 @@ struct Candidate {
   std::size_t kept() const;
 };
 
-/// Set that keeps the tolerance where sets are compared, but not surely enough on fresh points.
-struct FailedSet {
+/// Set that was judged for a plan.
+struct JudgedSet {
   Forms forms;
   double ns = 0, ops = 0;  ///< of f of one direction of light
-  Judgement error;         ///< on the fresh points
+  Judgement error;
   double most_exceeding =
       0;  ///< share beyond the limit that `error.bound` may be, for a verification to agree
-  double most_worst = 0;  ///< what `error.worst` may be, for the same
+  double most_worst = 0;       ///< what `error.worst` may be, for the same
+  double reference_error = 0;  ///< quantile of the reference's own error on the same points
 
   /// True where it is the worst point that fails; else it is the share beyond the limit.
   bool fails_at_worst() const { return error.worst > most_worst; }
@@ -84,9 +85,9 @@ struct MaterialPlan {
       false;  ///< the tolerance; else no form that is offered does, and this is the nearest
   bool could_hold = false;  ///< a set of the front keeps the tolerance: only the budget forbids it
   Judgement checked;        ///< on fresh points
-  std::size_t passed_over =
-      0;  ///< cheaper sets that kept the tolerance where they were chosen, but not on fresh points
-  std::optional<FailedSet> failed = {};  ///< the cheapest of these
+  std::size_t passed_over = 0;  ///< cheaper sets that were checked on fresh points, and failed
+  /// The cheapest of these; of none the next cheaper set, by the points that sets are compared on.
+  std::optional<JudgedSet> failed = {};
   /// No set keeps the tolerance both where sets are compared and on fresh points: this drops only what changes nothing.
   bool only_unseen = false;
   double coverage = 0;           ///< of the picture
@@ -96,6 +97,8 @@ struct MaterialPlan {
 
   /// True where it keeps light between facets as a table, which no shader has.
   bool needs_table() const;
+  /// True where no light comes to any of its points, so that every set of forms looks the same.
+  bool is_unlit() const { return directions == 0; }
 };
 /// "Kulla and Conty's lobe", by the form's name: what a plan without bound is compared with.
 std::string reference_in_words(std::string_view form);
@@ -123,7 +126,7 @@ struct Plan {
 
 struct PlanOptions {
   std::size_t samples = 4096;   ///< points that sets are compared on
-  std::size_t fresh = 65'536;   ///< points that the chosen set is checked on
+  std::size_t fresh = 65'536;   ///< points that the chosen set is checked on, at least
   std::size_t directions = 64;  ///< of each light that has an extent
   Cost cost = Cost::time;
 };
@@ -142,10 +145,11 @@ std::size_t points_of_plan(const Scene&, std::size_t samples);
 ///   3  of the others, every form that keeps the tolerance while all else is exact is a candidate's; candidates are their
 ///      combinations, at most 512.  Those that look an environment up are compared with 1024 directions a point.  Errors may
 ///      cancel: of at most 512 sets of any forms that shaders have, those that keep the tolerance are candidates, too
-///   4  the cheapest that keeps the tolerance, ties within the spread of times going to fewer effects, is checked on fresh
-///      points, strictly enough that fresh ones of a verification are likely to agree; if it fails the next is taken; if all
-///      do, the first that still holds on these points; if none does, only what changes no point by a hundredth of the limit
-///      is dropped
+///   4  the cheapest that these points do not rule out, ties within the spread of times going to fewer effects and then to fewer
+///      operations, is checked on fresh points, strictly enough that fresh ones of a verification are likely to agree; where its
+///      share beyond the limit is so near to what may be that they do not decide, up to 16 times as many are drawn; if it fails
+///      the next is taken; if all do, the first that still holds on these points; if none does, only what changes no point by a
+///      hundredth of the limit is dropped
 ///
 /// Each point's difference counts with what the reference itself may be off by there.  Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
 /// the budget leaves, and what is left of it goes to those that break the tolerance; it may be broken then, which a verification shows.

@@ -46,23 +46,34 @@ Reference Reference::under_sky(const Scene& s,
   return {std::move(all), std::move(light), std::move(error)};
 }
 
+void FreshDifferences::draw_to(std::size_t samples,
+                               const Scene& s,
+                               const PointDrawer& drawer,
+                               std::uint64_t stream,
+                               const Surface& exact,
+                               const Surface& surface) {
+  constexpr std::size_t part = 4096;
+  while (drawn < samples) {
+    const std::size_t n = std::min(part, samples - drawn);
+    const Reference fresh = surface.image_lit
+                                ? Reference::under_sky(s, drawer, stream, drawn, n, exact)
+                                : Reference(s, drawer.draw(stream, drawn, n), exact);
+    const auto d = fresh.bounds_of(s, surface);
+    all.insert(all.end(), d.begin(), d.end());
+    own.insert(own.end(), fresh.own_error.begin(), fresh.own_error.end());
+    drawn += n;
+  }
+}
+
 Judgement judge_fresh(const Scene& s,
                       const PointDrawer& drawer,
                       std::uint64_t stream,
                       std::size_t samples,
                       const Surface& exact,
                       const Surface& surface) {
-  constexpr std::size_t part = 4096;
-  std::vector<double> all;
-  for (std::size_t at = 0; at < samples; at += part) {
-    const std::size_t n = std::min(part, samples - at);
-    const Reference fresh = surface.image_lit
-                                ? Reference::under_sky(s, drawer, stream, at, n, exact)
-                                : Reference(s, drawer.draw(stream, at, n), exact);
-    const auto d = fresh.bounds_of(s, surface);
-    all.insert(all.end(), d.begin(), d.end());
-  }
-  return judge(all, s.tolerance);
+  FreshDifferences d;
+  d.draw_to(samples, s, drawer, stream, exact, surface);
+  return judge(d.all, s.tolerance);
 }
 
 }  // namespace gonio::scene

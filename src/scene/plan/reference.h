@@ -41,7 +41,21 @@ struct Reference {
         own_error(std::move(error)) {}
 };
 
-/// Judgement on points first drawn for it, a part after the other: memory does not grow with their number.
+/// Differences of points that are drawn for them, a part after the other: no light is kept.
+struct FreshDifferences {
+  std::vector<double> all;  ///< with the reference's own error in each
+  std::vector<double> own;  ///< that error
+
+  std::size_t drawn = 0;
+  /// Draws on, up to so many points of a stream.
+  void draw_to(std::size_t samples,
+               const Scene&,
+               const PointDrawer&,
+               std::uint64_t stream,
+               const Surface& exact,
+               const Surface&);
+};
+/// Judgement of so many of them.
 Judgement judge_fresh(const Scene&,
                       const PointDrawer&,
                       std::uint64_t stream,

@@ -67,7 +67,7 @@ Facts made_facts() {
                                                    {"diffuse.hammon", 0.6}})
     f.in_cache.push_back({id, ns, 0.01});
   f.whole = {{"ggx/smith_ggx.correlated/schlick", 0.2, 0.01},
-             {"gtr/smith_ggx.correlated/schlick", 1.0, 0.01}};
+             {"gtr/smith_gtr.correlated/schlick", 1.0, 0.01}};
   f.tails = Facts::Tails{20, 17, 1.4, std::log(1.5), std::log(1.2)};
   f.diffuse = {{"diffuse.lambert", 1, false, 1.91, 14, 9.0},
                {"diffuse.lambert.coupled", 0.95, true, 1.5, {}, 5.0},
@@ -168,7 +168,8 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   EXPECT_EQ(tails.error,
             "off by ×/÷ 1.5 beside published fits; 17 of 20 measured materials have a longer tail");
   EXPECT_EQ(tails.unless,
-            "γ is fitted (median 1.4, where it is determined): GTR, ×/÷ 1.2, +0.80 ns");
+            "γ is fitted (median 1.4, where it is determined): GTR with its own Smith, ×/÷ 1.2, "
+            "+0.80 ns");
   const auto& matte = about(all, "Diffuse of matte surfaces");
   EXPECT_EQ(matte.take_id, "diffuse.eon");
   EXPECT_EQ(matte.error, "none (it is the reference; Lambert: ΔE ≤ 14)");

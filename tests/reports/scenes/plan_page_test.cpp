@@ -184,7 +184,7 @@ TEST(PlanPage, NamesTheNumberByWhichACheaperSetFailed) {
   scene::Judgement error;
   error.worst = 4.51, error.bound = 0.001;
   m.passed_over = 26;
-  m.failed = scene::FailedSet{m.front[0].forms, 1.29, 40, error, 0.009, 3.6};
+  m.failed = scene::JudgedSet{m.front[0].forms, 1.29, 40, error, 0.009, 3.6};
   m.front[0].failed = {4.51, 0.001};
   auto page = plan_page_html(plastic_scene(), p);
   EXPECT_NE(page.find("The cheapest of them, at 40 operations, differs by 4.6 at its worst point, "
