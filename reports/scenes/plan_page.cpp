@@ -345,7 +345,7 @@ std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
   const auto which = fmt::format("the {}, at {},",
                                  m.passed_over > 1    ? "cheapest of them"
                                  : m.passed_over == 1 ? "cheapest"
-                                                      : "next cheaper set",
+                                                      : "nearest set with one form cheaper",
                                  at);
   if (f.fails_at_worst())
     return fmt::format("{} differs by {} at its worst point, where a plan may differ by {}", which,

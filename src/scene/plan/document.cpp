@@ -183,8 +183,8 @@ struct Description<scene::MaterialPlan> {
         field("passed_over", &M::passed_over, "cheaper sets that failed on the fresh points",
               or_default),
         field("failed", if_there(&M::failed),
-              "the cheapest of these, or else the next cheaper set on the points that sets are "
-              "compared on, and what it failed by"),
+              "the cheapest of these, or else the nearest set with one form cheaper, by the points "
+              "that sets are compared on; and what it failed by"),
         field("only_unseen", &M::only_unseen,
               "no set keeps the tolerance both where sets are compared and on fresh points: only "
               "what changes no point by a hundredth of the limit is dropped",

@@ -320,8 +320,9 @@ class MaterialPlanner {
   JudgedSet judged_set(const Forms& forms, double ns, double ops) const {
     return {forms, ns, ops, {}, most_exceeding_, reserve * scene_.tolerance.max};
   }
-  /// A set by fresh points: enough to decide on it.  Those with the many directions that a lookup is compared with are drawn once.
-  JudgedSet checked(const Forms& forms, const Surface& s, double ns, double ops) {
+  /// A set by fresh points: enough to decide on it, or of one that fails at a glance few.  Those with the many directions that a lookup is compared with are drawn once.
+  JudgedSet checked(
+      const Forms& forms, const Surface& s, double ns, double ops, std::size_t first = glance) {
     const auto& t = scene_.tolerance;
     JudgedSet set = judged_set(forms, ns, ops);
     const auto judge_both = [&](std::vector<double>& all, std::vector<double> own) {
@@ -339,7 +340,7 @@ class MaterialPlanner {
     const std::size_t enough = options_.fresh,
                       most = std::max(enough, std::min(most_times * enough, most_fresh));
     FreshDifferences fresh;
-    for (std::size_t n = std::min(glance, enough);; n = n < enough ? enough : 4 * n) {
+    for (std::size_t n = std::min(first, enough);; n = n < enough ? enough : 4 * n) {
       fresh.draw_to(std::min(n, most), scene_, drawer_, checking, exact_, s);
       judge_both(fresh.all, fresh.own);
       const bool fails = !may_pass(set.error, set.most_worst);
@@ -400,7 +401,7 @@ class MaterialPlanner {
       if (!p.failed || cost(all[i]) < cost(*p.failed)) p.failed = all[i];
     }
     if (holding) {
-      if (!p.failed) p.failed = next_cheaper(*order[*holding]);
+      if (!p.failed) p.failed = nearest_cheaper(p, all[*holding]);
       settle(p, all[*holding]);
       p.holds = true;
       return;
@@ -409,7 +410,7 @@ class MaterialPlanner {
     const auto same = nearest();
     const std::array surface{look_.surface(same)};
     settle(p, checked(same, surface[0], times_of(surface, reference_.points)[0].ns,
-                      operations_of(surface[0], reference_.points)));
+                      operations_of(surface[0], reference_.points), options_.fresh));
     p.holds = p.checked.holds(scene_.tolerance);
   }
   void settle(MaterialPlan& p, const JudgedSet& set) {
@@ -417,18 +418,29 @@ class MaterialPlanner {
     p.reference_error = set.reference_error;
     take(p, look_, set.forms, set.ns, set.ops);
   }
-  /// Of the sets that the points which sets are compared on rule out, the dearest of those that are cheaper.
-  std::optional<JudgedSet> next_cheaper(const Candidate& than) const {
-    const Candidate* next = nullptr;
-    for (const auto& c : candidates_)
-      if (!may_keep(c.error) && cost(c) + spread(c) < cost(than) &&
-          (!next || std::tuple(-cost(c), c.error.exceeding) <
-                        std::tuple(-cost(*next), next->error.exceeding)))
-        next = &c;
-    if (!next) return {};
-    auto set = judged_set(next->forms, next->ns, next->ops);
-    set.error = next->error;
-    return set;
+  /// Of the sets with one form cheaper than a set that is taken, the nearest, by the points that sets are compared on.
+  std::optional<JudgedSet> nearest_cheaper(const MaterialPlan& p, const JudgedSet& taken) const {
+    std::optional<JudgedSet> nearest;
+    for (std::size_t i = 0; i < effect_count; ++i) {
+      const auto e = static_cast<Effect>(i);
+      if (p.effects[i].why != Why::measured || e == Effect::environment) continue;
+      for (const auto form : look_.offer(e).forms) {
+        if (form == taken.forms[e]) break;
+        Forms forms = taken.forms;
+        forms[e] = form;
+        const Surface s = look_.surface(forms = plain(forms));
+        JudgedSet set = judged_set(forms, 0, operations_of(s, reference_.points));
+        if (set.ops >= taken.ops) continue;
+        set.error = judged(s);
+        if (!may_keep(set.error) && (!nearest || set.error.bound < nearest->error.bound))
+          nearest = set;
+      }
+    }
+    if (nearest) {
+      const std::array surface{look_.surface(nearest->forms)};
+      nearest->ns = times_of(surface, reference_.points)[0].ns;
+    }
+    return nearest;
   }
   /// Forms without what changes nothing: they err by what the reference does.
   Forms nearest() const {

@@ -86,7 +86,7 @@ struct MaterialPlan {
   bool could_hold = false;  ///< a set of the front keeps the tolerance: only the budget forbids it
   Judgement checked;        ///< on fresh points
   std::size_t passed_over = 0;  ///< cheaper sets that were checked on fresh points, and failed
-  /// The cheapest of these; of none the next cheaper set, by the points that sets are compared on.
+  /// The cheapest of these; of none the nearest set with one form cheaper, by the points that sets are compared on.
   std::optional<JudgedSet> failed = {};
   /// No set keeps the tolerance both where sets are compared and on fresh points: this drops only what changes nothing.
   bool only_unseen = false;

@@ -356,7 +356,7 @@ void Look::offer_forms() {
   if (first_.known) {
     offer(Effect::masking, {schlick_k, separable, correlated});
     std::vector<Form> kinds{uncompensated, turquin, fdez_aguera, kulla_conty};
-    if (!gtr) kinds.push_back(Form::tabulated);
+    if (!gtr || first_.gamma == 2) kinds.push_back(Form::tabulated);  // which is GGX
     offer(Effect::compensation, kinds);
   } else {
     offer(Effect::masking, {first_.any ? correlated : schlick_k}, false, as_given);

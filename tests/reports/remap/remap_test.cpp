@@ -10,6 +10,7 @@
 #include "reports/plain.h"
 #include "reports/remap/pairs.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -195,6 +196,15 @@ TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
   EXPECT_TRUE(all.headline.starts_with("Unreal's joint form is the cheap masking nearest to"));
   EXPECT_TRUE(said("A surface of roughness 0.1 is masked by Schlick's k = (r+1)²/8 like one of"));
   EXPECT_TRUE(said("r²/2 for image-based” does not hold"));
+  // Each is of height-correlated Smith, which the index compares with.
+  EXPECT_TRUE(said(fmt::format("like one of roughness {:.2f} by height-correlated Smith",
+                               row(r, direct, correlated, 0.3).by_g2.roughness)));
+  EXPECT_EQ(all.claims[0].figure,
+            fmt::format("G₂ off by {:.2g} against {:.2g}, RMS", *overall_rms(r, direct, correlated),
+                        *overall_rms(r, image, correlated)));
+  EXPECT_NE(fmt::format("{:.2g}", *overall_rms(r, image, correlated)),
+            fmt::format("{:.2g}", *overall_rms(r, image, separable)))
+      << "or the choice of reference does not show";
   EXPECT_EQ(all.claims[0].judged, Claim::Judged::fails);
   EXPECT_EQ(all.claims.size(), 4U);
   // already too dark: 0.471 of what should be 0.543

@@ -278,6 +278,26 @@ TEST(SchlickReport, TheVerdictsAreMadeFromTheFigures) {
   EXPECT_TRUE(said(good, "below 1 %” holds:"));
 }
 
+TEST(SchlickReport, ClaimsCountTheRowsOfTheReport) {
+  std::size_t small = 0, all = 0, bright = 0, channels = 0;
+  for (const auto& x : smooth().smooth) {
+    if (x.form != "fresnel.schlick" || (x.kind != "dielectric" && x.kind != "metal")) continue;
+    ++all, small += x.max_abs < 0.01;
+    if (x.kind != "metal") continue;
+    const double f0 = f0_of_index({x.eta, x.k});
+    ++channels, bright += 0.7 <= f0 && f0 <= 1;
+  }
+  const auto said = [](const std::string& words) {
+    const auto found = findings(smooth());
+    return std::ranges::any_of(found.claims, [&](const Claim& c) {
+      return c.figure.find(words) != c.figure.npos || c.verdict.find(words) != c.verdict.npos;
+    });
+  };
+  EXPECT_TRUE(said(std::to_string(bright) + " of " + std::to_string(channels) + " channels"));
+  EXPECT_TRUE(said(std::to_string(small) + " of " + std::to_string(all) + " dielectrics and"))
+      << "those that were measured, too";
+}
+
 TEST(SchlickReport, WhatIsSaidCanBeReadAloud) {
   auto r = smooth();
   test::expect_plain(findings(r));

@@ -17,6 +17,13 @@ TEST(Confidence, OfNoneBeyondIsInClosedForm) {
   EXPECT_EQ(exceedance_bound(5, 5, 0.95), 1);
 }
 
+TEST(Confidence, BoundsAShareFromBelowAsTheRestFromAbove) {
+  EXPECT_EQ(exceedance_lower_bound(0, 50, 0.95), 0);
+  EXPECT_NEAR(exceedance_lower_bound(50, 50, 0.95), std::pow(0.05, 1.0 / 50), 1e-12);
+  EXPECT_LT(exceedance_lower_bound(5, 500, 0.95), 0.01);
+  EXPECT_GT(exceedance_lower_bound(5, 500, 0.95), 0.003);
+}
+
 TEST(Confidence, BoundsAShareAsOftenAsItSays) {
   constexpr double share = 0.02;
   constexpr std::size_t n = 300, runs = 4000;

@@ -107,7 +107,8 @@ TEST(Plan, CostsLessThanAllEffectsAndKeepsTheTolerance) {
     }
     most_saved = std::max(most_saved, p.ops_saved);
     EXPECT_EQ(p.holds, p.checked.upper <= 1 && p.checked.worst <= 4) << p.spec;
-    EXPECT_EQ(p.checked.samples, quick().fresh);
+    EXPECT_GE(p.checked.samples, quick().fresh);
+    EXPECT_LE(p.reference_error, p.checked.upper) << "which has it in it: " << p.spec;
   }
   EXPECT_GT(most_saved, 0.1);
 }
@@ -139,7 +140,7 @@ TEST(Plan, IsTheNearestWhereNoneHoldsAndSaysSo) {
 TEST(Plan, DropsWhatChangesNothingWhereNoSetIsSeenToHold) {
   const auto diamond =
       test::material("ggx/smith_ggx.correlated/dielectric", {"roughness=0.15", "eta=2.42"});
-  const auto p = planned(diamond, test::rim(), {.quantile = 0.999, .limit = 0.2, .max = 2});
+  const auto p = planned(diamond, test::rim(), {.quantile = 0.999, .limit = 0.1, .max = 2});
   ASSERT_TRUE(p.only_unseen);
   EXPECT_FALSE(keeps(p, "precision")) << "double changes nothing, and takes time";
   EXPECT_TRUE(keeps(p, "fresnel"));
@@ -158,6 +159,47 @@ TEST(Plan, NamesTheCheapestSetThatFailedOnFreshPoints) {
   ASSERT_TRUE(p.failed);
   EXPECT_TRUE(p.failed->fails_at_worst() || p.failed->error.bound > p.failed->most_exceeding);
   EXPECT_DOUBLE_EQ(p.failed->most_worst, 0.9 * 4);
+}
+
+TEST(Plan, NamesTheNearestSetWithOneFormCheaperWhereNoneFailedOnFreshPoints) {
+  const auto p = planned(test::chalk(), test::front());
+  ASSERT_TRUE(p.holds);
+  ASSERT_EQ(p.passed_over, 0U);
+  ASSERT_TRUE(p.failed);
+  EXPECT_LT(p.failed->ops, p.ops_exact * (1 - p.ops_saved));
+  EXPECT_TRUE(p.failed->fails_at_worst() || p.failed->error.bound > p.failed->most_exceeding);
+}
+
+/// About 0.71 % of its points differ by more than 1 in Schlick's Fresnel, where a plan may at 0.75 %: few points find either.
+TEST(Plan, IsTheSameForEverySeedWhereASetIsNearlyTooFarOff) {
+  Scene s = test::sphere(test::satin_gold(), two_lights());
+  s.objects = {{Sphere{{1.1, 0, 0}}, 0}};
+  s.view = Camera{{0, 0, 10}, {0, 0, 0}, {0, 1, 0}, 30};
+  for (const std::uint64_t seed : {2U, 4U, 5U}) {
+    s.seed = seed;
+    const auto p = plan_scene(s, {.cost = Cost::operations}).materials.at(0);
+    EXPECT_EQ(p.spec, "ggx/smith_ggx.correlated/schlick") << seed;
+    EXPECT_LE(p.checked.bound, 0.0077) << seed;
+  }
+}
+
+TEST(Plan, SaysWhereNoLightComes) {
+  EXPECT_TRUE(planned(test::chalk(), {test::light({0, 0, -1})}).is_unlit());
+  EXPECT_FALSE(planned(test::chalk(), test::rim()).is_unlit());
+}
+
+TEST(Plan, ReasonsForDroppingSayWhatKeepsTheLimit) {
+  const auto gold =
+      test::material("ggx/smith_ggx.correlated/conductor", {"roughness=0.45", "metal=Au"});
+  std::size_t beyond = 0;
+  for (const double limit : {1.0, 5.0})
+    for (const auto& e : planned(gold, two_lights(), {.limit = limit, .max = 50}).effects) {
+      if (e.why != Why::measured || e.keep) continue;
+      const bool said = e.reason.find("the limit is kept") != e.reason.npos;
+      EXPECT_EQ(said, e.error_if_dropped > limit) << e.reason;
+      beyond += said;
+    }
+  EXPECT_GT(beyond, 0U);
 }
 
 TEST(Plan, ReasonsSayNoMoreThanWhatWasMeasured) {
@@ -225,6 +267,7 @@ TEST(Plan, IsTheSameForASeedWhateverTheThreads) {
     auto p = planned(test::car_paint(), test::rim());
     for (auto& e : p.effects) e.ns_saved = 0;
     p.ns = p.ns_exact = p.speedup = 1;
+    if (p.failed) p.failed->ns = 0;
     for (auto& c : p.front) c.ns = c.ns_spread = 0;
     return to_json(Plan{"", {}, {p}, {}});
   };

@@ -49,6 +49,9 @@ TEST(Look, KnowsNoBoundWhereItKnowsNoWalk) {
   EXPECT_EQ(gtr.exact()[Effect::compensation], Form::kulla_conty);
   EXPECT_FALSE(gtr.is_bounded());
   EXPECT_FALSE(gtr.surface(gtr.exact()).multiple.lobe);
+  const Look ggx(test::material("gtr/smith_gtr.correlated/schlick", {"gamma=2"}));
+  EXPECT_TRUE(ggx.is_bounded()) << "gamma 2 is GGX, whose walks are known";
+  EXPECT_TRUE(ggx.surface(ggx.exact()).multiple.lobe);
   EXPECT_FALSE(
       Look(test::material("student_t/smith_student_t.correlated/schlick", {})).is_bounded());
   EXPECT_TRUE(Look(test::material("lambert", {"kd=0.5"})).is_bounded()) << "nothing bounces there";
