@@ -267,10 +267,12 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
       (m.is_unlit() ? " No light comes to any of them: every set of forms looks the same." : "");
   s.parts.emplace_back(Prose{
       m.bounded
-          ? fmt::format("Checked on {} fresh points: less than {} of all exceed the limit, with a "
-                        "confidence of {}. The error of the reference is in it.{}",
-                        count_text(c.samples), percent_at_most(c.bound),
-                        percent_given(p.tolerance.confidence), failed)
+          ? fmt::format(
+                "Checked on {} fresh points: less than {} of all exceed the limit, with a "
+                "confidence of {} over the points. Two standard errors of the reference are in "
+                "each difference.{}",
+                count_text(c.samples), percent_at_most(c.bound),
+                percent_given(p.tolerance.confidence), failed)
           : fmt::format("Checked on {} fresh points beside {}. No walk is known of this lobe, so "
                         "nothing is claimed beyond these points.{}",
                         count_text(c.samples), scene::reference_in_words(m.reference), failed),

@@ -170,11 +170,15 @@ struct Description<scene::MaterialPlan> {
               "least error_if_dropped among those compensations: without the reference's own error",
               amounts, or_default),
         field("reference_error", &M::reference_error,
-              "quantile of what the reference itself may be off by: in the differences", amounts,
-              or_default),
+              "quantile of two standard errors of the reference on the same points: in the "
+              "differences",
+              amounts, or_default),
         field("holds", &M::holds, "the tolerance; else this is the nearest plan"),
-        field("error_upper", if_there(checked(&Judgement::upper)),
-              "its upper confidence bound, the reference's own error in it", amounts),
+        field(
+            "error_upper", if_there(checked(&Judgement::upper)),
+            "its upper confidence bound over points, two standard errors of the reference in each "
+            "difference",
+            amounts),
         field("worst", checked(&Judgement::worst), "greatest difference of these", amounts,
               or_default),
         field("exceeding_bound", if_there(checked(&Judgement::bound)),

@@ -30,7 +30,7 @@ struct Reference {
   std::vector<double> differences_of(const Scene& s, const Surface& surface) const {
     return differences(s.tolerance.metric, s.exposure, exact, radiance(surface, points, columns));
   }
-  /// The same with the reference's own error added at each point: what is claimed of them holds of the light itself.
+  /// The same with the reference's own error added at each point: where that holds, a bound of the difference from the light itself.
   std::vector<double> bounds_of(const Scene& s, const Surface& surface) const;
 
  private:
