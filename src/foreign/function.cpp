@@ -76,7 +76,7 @@ std::string cosine_of(const std::string& s) {
   if (s == "costheta" || s == "cosine" || s == "costhetad") return "voh";
   if (s == "costhetai" || s == "costhetal") return "nol";
   if (s == "costhetao" || s == "costhetav") return "nov";
-  if (s == "costhetah") return "noh";
+  if (s == "costhetah" || s == "costhetam") return "noh";
   if (s == "sin2thetah" || s == "sinthetah2") return "sin2_theta_h";
   std::string pair = s;
   for (const char* between : {"dot", "o"})
@@ -492,7 +492,13 @@ class Builder {
     const bool named = n.starts_with("v") || n.starts_with("g") || n.find("smith") != n.npos ||
                        n.find("visib") != n.npos || n.find("geom") != n.npos ||
                        n.find("mask") != n.npos || n.find("shadow") != n.npos;
-    return (l || v) && !frame && f_.programs.size() == 1 && named && n.find("diffuse") == n.npos
+    // Of two widths it takes the cosines with the tangent, too; what takes vectors may be a whole
+    // model.
+    const bool of_cosines = std::ranges::none_of(f_.arguments, [](const Argument& a) {
+      return a.stands_for == "L" || a.stands_for == "V" || a.stands_for == "H";
+    });
+    return (l || v) && (!frame || (of_cosines && !half && !facing)) && f_.programs.size() == 1 &&
+                   named && n.find("diffuse") == n.npos
                ? Stands::masking
                : Stands::lobe;
   }
@@ -519,27 +525,86 @@ class Builder {
   static bool differ(double a, double b) {
     return std::abs(a - b) > 1e-6 * std::max(std::abs(a), std::abs(b));
   }
+  /// Values of parameters that stand for all: the defaults first, then many drawn within the bounds, and of each its ends with the
+  /// others drawn.  What is decided at the defaults is wrong of two widths that have the same.
+  std::vector<std::vector<double>> many_settings() const {
+    std::vector<std::vector<double>> all{starts()};
+    const auto drawn = [&] {
+      constexpr double golden = 0.618033988749895;
+      const auto j = static_cast<double>(all.size());
+      std::vector<double> v;
+      for (const auto& p : f_.parameters) {
+        const double k = static_cast<double>(v.size() + 1), part = std::fmod(j * k * golden, 1);
+        // Without bounds it may be an angle in degrees, or a mode.
+        const double wide = p.bounded || all.size() % 4 ? 1 : 50;
+        v.push_back(p.range.low + wide * part * (p.range.high - p.range.low));
+      }
+      return v;
+    };
+    constexpr std::size_t many = 12;
+    while (all.size() <= many) all.push_back(drawn());
+    for (std::size_t k = 0; k < f_.parameters.size(); ++k)
+      for (const double end : {f_.parameters[k].range.low, f_.parameters[k].range.high}) {
+        auto v = drawn();
+        v[k] = end;
+        all.push_back(std::move(v));
+      }
+    return all;
+  }
+  /// True where turning the surface changes a value, whatever the parameters are.
+  bool is_anisotropic(const std::vector<std::vector<double>>& settings) const {
+    if (std::ranges::any_of(f_.arguments, [&](const Argument& a) {
+          const std::size_t k = angle(a.stands_for);
+          return k >= first_of_frame && k < angle_names.size() && reads_angle(a.stands_for);
+        }))
+      return true;
+    constexpr std::size_t places = 12;
+    std::vector<std::array<double, 11>> at;
+    for (std::size_t i = 0; i < places; ++i) {
+      const double k = static_cast<double>(i);
+      const double t = 0.11 + 0.11 * k, u = 1.4 - 0.1 * k, phi = 0.3 + 0.5 * k;
+      at.push_back(between(t, phi, u, 0));
+      at.push_back(between(t, phi, u, 0.7 + 0.3 * k));
+    }
+    return std::ranges::any_of(f_.programs, [&](const Program& p) {
+      Interpreter<double> run(p, at.size());
+      return std::ranges::any_of(settings, [&](const std::vector<double>& values) {
+        std::vector<double> v(at.size());
+        run.set(values);
+        run.run(
+            at.size(), [&](std::size_t k, std::size_t j) { return at[j][k]; },
+            [&](std::size_t, std::size_t j, double x) { v[j] = x; });
+        double most = 0;
+        for (const double x : v) most = std::fmax(most, std::abs(x));
+        for (std::size_t i = 0; i < v.size(); i += 2)
+          if (differ(v[i], v[i + 1]) && std::abs(v[i] - v[i + 1]) > 1e-12 * most) return true;
+        return false;
+      });
+    });
+  }
+  /// True of a masking function that gives G: 1 along the normal and never more; a V without its 4 is 1 there, too, and more elsewhere.
+  bool gives_g(const std::vector<double>& p) const {
+    const auto at = [&](double theta_l, double theta_v) {
+      return value_of(f_, p, between(theta_l, 1, theta_v, 0))[0];
+    };
+    constexpr double steep = 1.3, same = 1e-3;
+    return at(0, 0) > 0.6 && !(std::fmax(at(steep, steep), at(0, steep)) > at(0, 0) * (1 + same));
+  }
   void finish() {
     for (std::size_t k = first_of_frame; k < angle_names.size(); ++k)
       f_.reads_frame = f_.reads_frame || reads_angle(angle_names[k]);
-    const auto p = starts();
-    for (int k = 0; f_.reads_frame && k < 12; ++k) {
-      const double t = 0.11 + 0.11 * k, u = 1.4 - 0.1 * k, phi = 0.3 + 0.5 * k;
-      const auto a = value_of(f_, p, between(t, phi, u, 0));
-      const auto b = value_of(f_, p, between(t, phi, u, 0.7 + 0.3 * k));
-      for (std::size_t c = 0; c < a.size(); ++c) f_.anisotropic |= differ(a[c], b[c]);
-    }
+    const auto settings = many_settings();
+    f_.anisotropic = f_.reads_frame && is_anisotropic(settings);
     if (f_.stands == Stands::masking) {
-      const double at_normal = value_of(f_, p, between(0, 0, 0, 0))[0];
       const auto& said = f_.name.reading.includes;
-      f_.is_g = said ? *said == "g" : at_normal > 0.6;
+      f_.is_g = said ? *said == "g" : gives_g(settings[0]);
       f_.includes = f_.is_g ? "g" : "v";
       f_.guessed = !said;
     }
-    if (f_.stands == Stands::lobe) includes_of_lobe(p);
+    if (f_.stands == Stands::lobe) includes_of_lobe(settings);
     for (auto& program : f_.programs) scale(program);
   }
-  void includes_of_lobe(const std::vector<double>& p) {
+  void includes_of_lobe(const std::vector<std::vector<double>>& settings) {
     if (const auto& said = f_.name.reading.includes) {
       static constexpr std::string_view known[] = {"nothing", "cosine", "pi", "cosine,pi"};
       if (std::ranges::find(known, *said) == std::end(known))
@@ -549,9 +614,19 @@ class Builder {
     }
     f_.guessed = true;
     if (!takes_direction(f_)) return;  // a helper
-    // Reciprocity: f(l, v) = f(v, l) with the cosine taken out, not with it in.
-    // Shaders add 1e-5 to a cosine so that it is never 0: that is no cosine of their own.
-    int plain_differs = 0, without_differs = 0;
+    bool cosine = false;
+    for (const auto& p : settings)
+      if (const auto has = has_cosine(p)) {  // else nothing shines there, as with a default of 0
+        cosine = *has;
+        break;
+      }
+    const bool pi = has_pi(settings[0], cosine);
+    f_.includes = cosine && pi ? "cosine,pi" : cosine ? "cosine" : pi ? "pi" : "nothing";
+  }
+  /// Guesses whether a value is f NoL by reciprocity: f(l, v) = f(v, l) with the cosine taken out, not with it in; none where the value
+  /// is 0.  Shaders add 1e-5 to a cosine so that it is never 0: that is no cosine of their own.
+  std::optional<bool> has_cosine(const std::vector<double>& p) const {
+    int plain_differs = 0, without_differs = 0, seen = 0;
     double plain_off = 0, without_off = 0;
     const auto off = [](double a, double b) {
       return std::abs(a - b) / std::max(std::abs(a), std::abs(b));
@@ -560,16 +635,15 @@ class Builder {
       const double t = 0.15 + 0.05 * k, u = 1.3 - 0.045 * k, phi = 0.4 * k;
       const auto x = between(t, phi, u, 0), y = between(u, -phi, t, 0);
       const double a = value_of(f_, p, x)[0], b = value_of(f_, p, y)[0];
-      if (a == 0 && b == 0) continue;
+      if (!std::isfinite(a) || !std::isfinite(b) || (a == 0 && b == 0)) continue;
+      ++seen;
       plain_differs += differ(a, b);
       without_differs += differ(a / x[0], b / y[0]);
       plain_off = std::fmax(plain_off, off(a, b));
       without_off = std::fmax(without_off, off(a / x[0], b / y[0]));
     }
-    const bool cosine =
-        plain_differs > 3 && (without_differs == 0 || without_off < 1e-3 * plain_off);
-    const bool pi = has_pi(p, cosine);
-    f_.includes = cosine && pi ? "cosine,pi" : cosine ? "cosine" : pi ? "pi" : "nothing";
+    if (seen == 0) return {};
+    return plain_differs > 3 && (without_differs == 0 || without_off < 1e-3 * plain_off);
   }
   /// Rough albedo of the first channel where θ_v = 0.5, over rings about the mirror direction that are narrow near it: a lobe of
   /// any width is seen.
@@ -597,7 +671,8 @@ class Builder {
       }
     return sum;
   }
-  /// Guesses whether a value is π times f.  A colour at 1, with the others dark, gives an albedo near 1, or else near π.
+  /// Guesses whether a value is π times f.  A colour at 1, with the others dark, gives an albedo near 1, or else near π, where it
+  /// gives most: a rough highlight loses light.
   bool has_pi(const std::vector<double>& starts, bool cosine) {
     const auto is_near = [](double a, double b) { return std::abs(a / b - 1) < 0.1; };
     double most = 0;
@@ -643,11 +718,16 @@ class Builder {
     std::vector<std::vector<double>> places{dark};
     for (const auto k : others)
       for (const auto* end : {&low, &high}) places.push_back(with(dark, {k}, *end));
-    for (const auto& g : colours)
+    for (const auto& g : colours) {
+      double largest = 0;
       for (const auto& p : places)
-        take((rough_albedo(with(p, g, high), cosine) - rough_albedo(with(p, g, low), cosine)) /
-             (high[g[0]] - low[g[0]]));
-    if (colours.empty()) take(rough_albedo(starts, cosine));
+        largest = std::fmax(largest, (rough_albedo(with(p, g, high), cosine) -
+                                      rough_albedo(with(p, g, low), cosine)) /
+                                         (high[g[0]] - low[g[0]]));
+      take(largest);
+    }
+    constexpr double little = 0.2;  // as a roughness that a diffuse part is nearly linear in
+    if (most < little) take(rough_albedo(starts, cosine));
     f_.unclear = !near_one && !near_pi && most > 1.2;
     return near_pi && !near_one;
   }

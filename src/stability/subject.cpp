@@ -54,6 +54,18 @@ Input input_of(const Parameter& p, bool own) {
   return i;
 }
 
+/// A person's function by the value of its text: G, not G/(4 NoL NoV), whose division it does not make.
+std::size_t as_written(std::size_t term) {
+  const auto* f = foreign_term(term);
+  if (!f) return term;
+  const Role role = catalogue()[term].role();
+  const std::string_view plain = role == Role::masking ? "v" : "nothing";
+  if (f->function->includes == plain) return term;
+  auto name = f->function->name;
+  name.reading.includes = plain;
+  return foreign_term_named(foreign::text_of(name), role) + f->channel;
+}
+
 std::vector<Input> angles_given(Given given) {
   const Range part{0, 1}, above{least_cosine, 1}, turn{-1, 1};
   const auto angle = [](const char* name, Range domain, Range legal) {
@@ -138,8 +150,9 @@ void expect_bounded(const Subject& s) {
                                     i.name, s.id, i.name));
 }
 
-std::vector<Subject> subjects_of_term(std::size_t term) {
-  const auto& entry = catalogue()[term];
+std::vector<Subject> subjects_of_term(std::size_t named) {
+  const std::size_t term = as_written(named);
+  const auto& entry = catalogue()[named];
   std::vector<Subject> all;
   for (const auto given : given_to(term)) {
     std::vector<Input> inputs;

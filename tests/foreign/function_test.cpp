@@ -47,7 +47,8 @@ TEST(Function, BoundsAreReadAsGonioWritesThem) {
 
 TEST(Function, CosinesAreKnownByTheirUsualNames) {
   SKIP_WITHOUT_SHADERS;
-  for (const std::string noh : {"NoH", "NdotH", "dotNH", "n_dot_h", "NH", "HdotN", "costhetah"}) {
+  for (const std::string noh :
+       {"NoH", "NdotH", "dotNH", "n_dot_h", "NH", "HdotN", "costhetah", "cos_theta_m"}) {
     const Written w("// alpha 0.01 1 0.2\nfloat D(float " + noh + ", float alpha) { return " + noh +
                     " * alpha; }\n");
     const auto f = w.function();
@@ -216,6 +217,92 @@ TEST(Function, TurningTheSurfaceIsNoticed) {
   const std::string head = "float f(vec3 L, vec3 V, vec3 N, vec3 X) { return ";
   EXPECT_TRUE(Written(head + "0.1 + 0.1 * dot(X, L) * dot(X, V); }\n").function().anisotropic);
   EXPECT_FALSE(Written(head + "0.1 + 0.1 * dot(L, V); }\n").function().anisotropic);
+}
+
+/// Slopes of two widths, by cosines with the tangent frame.
+std::string two_widths(const std::string& bounds) {
+  return bounds +
+         "float D(vec3 N, vec3 H, vec3 X, vec3 Y, float ax, float ay) {\n  float x = dot(X, H) / "
+         "ax, y = dot(Y, H) / ay, z = dot(N, H), s = x * x + y * y + z * z;\n  return 1.0 / "
+         "(3.14159265358979 * ax * ay * s * s);\n}\n";
+}
+
+TEST(Function, TwoWidthsThatHaveOneDefaultAreTwoWidths) {
+  SKIP_WITHOUT_SHADERS;
+  for (const auto* bounds : {"", "// ax 0.05 1 0.3\n// ay 0.05 1 0.3\n"}) {
+    const auto f = Written(two_widths(bounds)).function();
+    EXPECT_TRUE(f.anisotropic) << bounds;
+    EXPECT_EQ(f.stands, Stands::distribution);
+  }
+  EXPECT_FALSE(Written(two_widths("")).function("{ax=0.3;ay=0.3}").anisotropic);
+  const auto turned = Written(
+      "// turn 0 1 0\nfloat f(vec3 N, vec3 L, vec3 V, vec3 X, float turn) { return 0.1 + (turn > "
+      "0.98 ? dot(X, L) * dot(X, V) : 0.0); }\n");
+  EXPECT_TRUE(turned.function().anisotropic) << "at an end alone";
+}
+
+TEST(Function, AHighlightThatIsBlackAtItsDefaultHasACosineNonetheless) {
+  SKIP_WITHOUT_SHADERS;
+  const auto f = Written(
+                     "// ks 0 1 0\nfloat f(vec3 L, vec3 V, vec3 N, float ks) { return ks / "
+                     "3.14159265358979 * dot(N, L); }\n")
+                     .function();
+  EXPECT_EQ(f.includes, "cosine");
+}
+
+TEST(Function, ARoughHighlightThatLosesLightDoesNotHideAFactorOfPi) {
+  SKIP_WITHOUT_SHADERS;
+  const auto includes = [](const std::string& norm, const std::string& kd, const std::string& nol) {
+    return Written(
+               "// roughness 0.05 1 0.5\n// kd 0 1 0.5\n// f0 0 1 0.04\nvec3 f(vec3 N, vec3 L, "
+               "vec3 V, float roughness, vec3 kd, vec3 f0) {\n  vec3 H = normalize(L + V);\n"
+               "  float NoL = dot(N, L), NoV = dot(N, V), NoH = dot(N, H), a = roughness * "
+               "roughness, d = NoH * NoH * (a * a - 1.0) + 1.0;\n"
+               "  return (" +
+               kd +
+               " + a * a / (d * d) * 0.5 / (NoL * (NoV * (1.0 - a) + a) + NoV * (NoL * (1.0 - "
+               "a) + a)) * (f0 + (1.0 - f0) * pow(1.0 - dot(L, H), 5.0)) / " +
+               norm + ")" + nol + ";\n}\n")
+        .function()
+        .includes;
+  };
+  EXPECT_EQ(includes("1.0", "kd", " * NoL"), "cosine,pi");
+  EXPECT_EQ(includes("1.0", "kd", ""), "pi");
+  EXPECT_EQ(includes("3.14159265", "kd / 3.14159265", ""), "nothing");
+  EXPECT_EQ(includes("3.14159265", "kd", ""), "nothing") << "a slip of the diffuse part";
+}
+
+TEST(Function, ADiffuseFactorWithoutAColourHasPi) {
+  SKIP_WITHOUT_SHADERS;
+  const auto f = Written(
+                     "float diffuse(float NoL, float NoV, float LoH, float roughness) {\n  float g "
+                     "= 2.0 * LoH * LoH * roughness - 0.5;\n  return (1.0 + g * pow(1.0 - NoL, "
+                     "5.0)) * (1.0 + g * pow(1.0 - NoV, 5.0));\n}\n")
+                     .function();
+  EXPECT_EQ(f.includes, "pi");
+}
+
+TEST(Function, MaskingOfTwoWidthsIsMasking) {
+  SKIP_WITHOUT_SHADERS;
+  const auto f =
+      Written(
+          "// at 0.05 1 0.2\n// ab 0.05 1 0.5\nfloat V_Smith(float at, float ab, float "
+          "ToV, float BoV, float ToL, float BoL, float NoV, float NoL) {\n  return 0.5 / "
+          "(NoL * length(vec3(at * ToV, ab * BoV, NoV)) + NoV * length(vec3(at * ToL, ab "
+          "* BoL, NoL)));\n}\n")
+          .function();
+  EXPECT_EQ(f.stands, Stands::masking);
+  EXPECT_FALSE(f.is_g);
+  EXPECT_TRUE(f.anisotropic);
+}
+
+TEST(Function, AVisibilityThatLacksItsFourIsNoG) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_FALSE(
+      Written("float V_Cloth(float NoV, float NoL) { return 1.0 / (NoL + NoV - NoL * NoV); "
+              "}\n")
+          .function()
+          .is_g);
 }
 
 TEST(Function, AVariableThatOneBranchWroteHasNoValueElsewhere) {

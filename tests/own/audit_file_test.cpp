@@ -262,6 +262,17 @@ TEST(AuditFile, WhatIsSafeInHalfIsNamedByTheWidthAndContradictsNothing) {
       << "a search finds more than a proof reaches: " << a.half;
 }
 
+TEST(AuditFile, GIsLookedAtInHalfAsItsTextHasIt) {
+  SKIP_WITHOUT_SHADERS;
+  const auto g = audited(
+      "// k 0.1 1 0.5\nfloat G_Smith(float NoV, float NoL, float k) { return NoV / (NoV * (1.0 - "
+      "k) "
+      "+ k) * NoL / (NoL * (1.0 - k) + k); }\n");
+  EXPECT_TRUE(g.of.function->is_g);
+  EXPECT_EQ(g.half, "finite for every input of its domain")
+      << "4 NoL NoV is no division of its own";
+}
+
 TEST(AuditFile, ACosinePowerIsNamedByItsExponent) {
   SKIP_WITHOUT_SHADERS;
   const auto power = [](const char* norm) {

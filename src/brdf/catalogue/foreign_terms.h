@@ -17,7 +17,7 @@
 namespace gonio {
 
 /// The most of them in one run of a program.
-inline constexpr std::size_t most_foreign_terms = 48;
+inline constexpr std::size_t most_foreign_terms = 96;
 
 struct ForeignTerm {
   const foreign::Function* function;
@@ -37,7 +37,7 @@ std::size_t catalogue_size();
 const ForeignTerm* foreign_term(std::size_t term);
 /// The term of channel c of a model.
 std::size_t term_of_channel(std::size_t term, std::size_t channel);
-/// A function as a term in a role, read where it was not yet.  \throws Error  as read_function(), or wrong usage of more than 48
+/// A function as a term in a role, read where it was not yet.  \throws Error  as read_function(), or wrong usage of more than 96
 std::size_t foreign_term_named(std::string_view name, std::optional<Role> role = {});
 /// What was guessed of the functions named so far, where it changes values or is not clear: a sentence each.
 std::vector<std::string> foreign_guesses();
