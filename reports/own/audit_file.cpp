@@ -16,6 +16,8 @@
 #include "integrate/albedo/normalisation.h"
 #include "reports/finding/words.h"
 #include "reports/measure/samples.h"
+#include "reports/own/parameters.h"
+#include "reports/own/slip_forms.h"
 #include "stability/answer.h"
 
 #include <fmt/format.h>
@@ -35,29 +37,6 @@ void take_largest(std::optional<FoundAt>& w, double v, const std::string& at) {
 }
 void take_smallest(std::optional<FoundAt>& w, double v, const std::string& at) {
   if (!w || v < w->value || std::isnan(w->value)) w = FoundAt{v, at};
-}
-
-/// True of a parameter that scales the light: a colour, one channel of it, or f0, kd and their like.
-bool is_colour(const Parameter& p) {
-  const std::string_view name = p.name;
-  std::string n;
-  for (const char c : name)
-    if (c != '_') n += lower_case(c);
-  return p.per_channel || name.ends_with("_r") || name.ends_with("_g") || name.ends_with("_b") ||
-         std::ranges::any_of(std::array{"f0", "r0", "kd", "ks", "albedo", "diffuse", "specular"},
-                             [&](const char* begin) { return n.starts_with(begin); }) ||
-         n.find("color") != n.npos || n.find("colour") != n.npos;
-}
-
-/// A parameter's low end, default and high end.
-double low_of(const Parameter& p) {
-  return std::isnan(p.start) ? 0.05 : p.legal.low;
-}
-double usual_of(const Parameter& p) {
-  return std::isnan(p.start) ? 0.5 : p.start;
-}
-double high_of(const Parameter& p) {
-  return std::isnan(p.start) ? 1 : p.legal.high;
 }
 
 /// Five widths, both ends among them.
@@ -113,22 +92,17 @@ struct Furnace {
 };
 std::vector<Furnace> furnaces(std::span<const Parameter> parameters) {
   const auto width = width_of(parameters);
-  // The channels of a colour are one.
-  const auto stem = [](std::string_view n) {
-    return n.ends_with("_r") || n.ends_with("_g") || n.ends_with("_b") ? n.substr(0, n.size() - 2)
-                                                                       : n;
-  };
   std::vector<std::string_view> colours;
   std::vector<double> usual;
   for (const auto& p : parameters) {
     usual.push_back(usual_of(p));
-    if (is_colour(p) && (colours.empty() || colours.back() != stem(p.name)))
-      colours.push_back(stem(p.name));
+    if (is_colour(p) && (colours.empty() || colours.back() != stem_of(p.name)))
+      colours.push_back(stem_of(p.name));
   }
   const auto with_colours = [&](std::vector<double> at, const auto& is_high) {
     for (std::size_t k = 0; k < parameters.size(); ++k)
       if (const auto& p = parameters[k]; is_colour(p))
-        at[k] = is_high(stem(p.name)) ? high_of(p) : low_of(p);
+        at[k] = is_high(stem_of(p.name)) ? high_of(p) : low_of(p);
     return at;
   };
   const auto every = [](std::string_view) { return true; };
@@ -201,6 +175,43 @@ std::string in_half(std::size_t term, const std::vector<std::pair<std::string, R
                  catalogue()[term].role() != Role::diffuse);
 }
 
+/// Takes the albedo of the highlight alone, F0 = 1, along the normal: there masking takes nothing from a smooth one, and all light
+/// returns.  Says what is lost or gained.
+void take_highlight(FunctionAudit& a, std::span<const Parameter> parameters, const auto& albedo) {
+  const auto width = width_of(parameters);
+  const auto colours = part_colours(parameters);
+  if (!width || !colours || std::isnan(parameters[*width].start)) return;
+  const auto& w = parameters[*width];
+  const std::string name(w.name);
+  const double power = is_rough(name) ? 2 : powers_of(name)[0];
+  const double narrow = narrows(power) ? w.legal.high : w.legal.low;
+  constexpr double smooth = 0.1;  // of alpha: GGX still returns 0.98 there
+  if (!(alpha_of(narrow, power) <= smooth)) return;
+  const auto at = [&](double v, Others others) {
+    auto p = with_highlight(parameters, *colours, high_of(parameters[colours->f0[0]]), others);
+    p[*width] = v;
+    return albedo(p);
+  };
+  // With all else at its lower end there may be no light at all.
+  const Others others = at(w.start, Others::low) > 0 ? Others::low : Others::usual;
+  const double least = 1e-3 * (w.legal.high - w.legal.low);
+  const double narrowest = narrows(power) ? narrow : std::max(narrow, least);
+  a.highlight = FoundAt{at(narrowest, others), fmt::format("{} {:.4g}", name, narrowest)};
+  if (a.model && (a.model->bite || a.model->factor != 1)) return;  // named by its form
+  constexpr double rounded = 0.02;
+  for (const double factor : {std::numbers::pi, 4.0, 4 * std::numbers::pi})
+    if (std::abs(a.highlight->value / factor - 1) < rounded)
+      a.slips.push_back("its highlight is " + factor_text(factor));
+  if (const auto bite = bite_of(w, power, [&](double v) { return at(v, others); })) {
+    const auto text = fmt::format(
+        "its smooth highlight loses light: {:.2g} of it returns along the normal at "
+        "{}, and 0.9 only {} {:.3g}; a guard or a clamp cuts its peak{}",
+        a.highlight->value, a.highlight->at, narrows(power) ? "to" : "from", bite->from,
+        bite->is_little ? "; right where no material is so smooth" : "");
+    (bite->is_little ? a.to_check : a.slips).push_back(text);
+  }
+}
+
 void energy_of_lobe(FunctionAudit& a,
                     const std::string& token,
                     std::span<const Parameter> parameters) {
@@ -222,6 +233,8 @@ void energy_of_lobe(FunctionAudit& a,
   const auto place = [&](const std::vector<double>& values, std::size_t i) {
     return auditing::joined(auditing::text(parameters, values), fmt::format("NoV {}", mu[i]));
   };
+  take_highlight(a, parameters,
+                 [&](const std::vector<double>& values) { return albedos(values).back(); });
   for (const auto& f : furnaces(parameters)) {
     const auto together = albedos(f.together);
     for (std::size_t i = 0; i < mu.size(); ++i) {
@@ -263,6 +276,11 @@ std::vector<Row> grazing() {
 /// False of a function that takes no light: an argument of another name may be a cosine.
 bool is_audited(const foreign::Function& f) {
   return f.stands != foreign::Stands::lobe || takes_light(f);
+}
+
+bool is_fresnel_name(const std::string& name) {
+  const auto n = lowered(name);
+  return n.starts_with("f_") || n.find("fresnel") != n.npos || n.find("schlick") != n.npos;
 }
 
 bool takes_both_cosines(const foreign::Function& f) {
@@ -325,23 +343,33 @@ FunctionAudit audit_function(FileFunction f) {
       if (const double v = normalisation(term, p).value;
           !a.normalisation || std::abs(v - 1) > std::abs(a.normalisation->value - 1))
         a.normalisation = FoundAt{v, auditing::text(parameters, p)};
+  if (role == Role::ndf && is_fresnel_name(f.function->name.function)) {
+    a.normalisation.reset();
+    a.slips.emplace_back(
+        "its name is that of a Fresnel term, whose cosine is VoH, and it takes NoH");
+  }
   if (role == Role::diffuse) {
+    a.model = nearest_model(term, a.no_model);
+    if (a.model) a.slips = likely_slips(*a.model), a.to_check = to_check(*a.model);
     energy_of_lobe(a, token, parameters);
-    a.model = nearest_model(term);
-    if (a.model) a.slips = likely_slips(*a.model);
-    if (a.model) a.to_check = to_check(a.model->width, a.model->power);
   }
   // Light and view that graze from opposite sides leave no half vector: most shaders exclude it.
   constexpr Range cosines{0.05, 1};
   a.half = role == Role::diffuse
                ? "for NoL and NoV from 0.05: " + in_half(term, {{"nol", cosines}, {"nov", cosines}})
                : in_half(term, {});
-  if (!a.model && (role != Role::diffuse || !f.function->reads_frame)) {
+  const bool is_looked_up = role != Role::ndf || a.normalisation;
+  if (!a.model && is_looked_up && (role != Role::diffuse || !f.function->reads_frame)) {
     constexpr double far_off = 0.5;  // no form resembles it
     a.nearest = nearest_form(term);
     if (a.nearest && a.nearest->difference > far_off) a.nearest.reset();
-    if (a.nearest) a.slips = likely_slips(term, *a.nearest);
-    if (a.nearest && is_same(*a.nearest)) a.to_check = to_check(a.nearest->width, a.nearest->power);
+    if (a.nearest) {
+      std::ranges::copy(likely_slips(term, *a.nearest), std::back_inserter(a.slips));
+      std::ranges::copy(to_check(*a.nearest), std::back_inserter(a.to_check));
+      a.no_model.clear();
+    }
+    if (!a.nearest || !is_same(*a.nearest))
+      if (const auto slip = slip_form(term); !slip.empty()) a.slips.push_back(slip);
   }
   for (const auto& p : f.function->parameters)
     if (!p.bounded)
@@ -351,12 +379,7 @@ FunctionAudit audit_function(FileFunction f) {
 }
 
 std::string width_text(const std::string& width, double power) {
-  if (width.empty()) return "";
-  if (power < 0) return fmt::format(", alpha = √(2/({} + 2))", width);
-  return fmt::format(", alpha = {}{}{}", power == 0.5 ? "√" : "", width,
-                     power == 2   ? "²"
-                     : power == 4 ? "⁴"
-                                  : "");
+  return width.empty() ? "" : ", alpha = " + alpha_text(width, power);
 }
 
 std::string nearest_text(const FunctionAudit& a) {
@@ -410,6 +433,7 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
     j["together"] = found(a.together);
     j["usual"] = found(a.usual);
     j["darkest"] = found(a.darkest);
+    j["highlight"] = found(a.highlight);
     j["lowest"] = found(a.lowest);
     j["not_finite"] = a.not_finite;
     j["not_finite_at"] = a.not_finite ? Json(a.not_finite_at) : Json();
@@ -431,7 +455,9 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
                     {"masking_power", a.model->masking_power},
                     {"factor", a.model->factor},
                     {"operations", a.model->operations},
-                    {"lacks_diffuse", a.model->lacks_diffuse}};
+                    {"lacks_diffuse", a.model->lacks_diffuse},
+                    {"diffuse_factor", a.model->diffuse_factor}};
+    j["no_model"] = a.no_model.empty() ? Json() : Json(a.no_model);
     j["slips"] = a.slips;
     j["to_check"] = a.to_check;
     j["not_looked_at"] = a.not_looked_at;
@@ -485,6 +511,10 @@ std::string text_of(const FunctionAudit& a) {
                                ? ": so does any sum of a diffuse part and a highlight"
                                : ""));
     if (a.usual) line("", fmt::format("albedo {:.4g} at {}", a.usual->value, a.usual->at));
+    if (const auto& h = a.highlight)
+      line("", fmt::format("the highlight with F0 = 1 returns {:.3g} along the normal at {}, "
+                           "expected 1 where it is smooth",
+                           h->value, h->at));
     line("", fmt::format("of colours at their upper bounds no less than {:.4g}, at {}",
                          a.darkest->value, a.darkest->at));
   }
@@ -502,14 +532,17 @@ std::string text_of(const FunctionAudit& a) {
                                     operations_of(a.nearest->term).sample.total()));
   }
   if (const auto& m = a.model) {
-    line("D and V", fmt::format("those of {}{}{}", m->spec, width_text(m->width, m->power),
-                                m->masking_power == m->power
-                                    ? ""
-                                    : " in D" + width_text(m->width, m->masking_power) + " in V"));
+    line("D and V",
+         fmt::format("those of {}{}{}{}", m->spec, width_text(m->width, m->power),
+                     m->masking_power == m->power
+                         ? ""
+                         : " in D" + width_text(m->width, m->masking_power) + " in V",
+                     m->other_fresnel ? "; its Fresnel term is that of none of ours" : ""));
     line("beside ours",
          fmt::format("{} operations, ours {}{}", a.of.operations.total(), m->operations,
                      m->lacks_diffuse ? " without a diffuse part" : ""));
   }
+  if (!a.no_model.empty()) line("beside ours", "none: " + a.no_model);
   for (const auto& slip : a.slips) line("likely slip", slip);
   for (const auto& c : a.to_check) line("check", c);
   for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));

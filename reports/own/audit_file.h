@@ -8,6 +8,7 @@
 
 #include "answer/file_functions.h"
 #include "reports/own/nearest.h"
+#include "reports/own/nearest_model.h"
 
 namespace gonio {
 
@@ -27,12 +28,15 @@ struct FunctionAudit {
   std::optional<FoundAt> darkest;   ///< the smallest, all colours at their upper bounds
   std::optional<FoundAt>
       usual;  ///< the albedo with defaults, at NoV 0.5, the largest of its channels
+  /// Albedo of the highlight alone with F0 = 1 along the normal, at the narrowest width: 1 of a right one.
+  std::optional<FoundAt> highlight;
   std::optional<FoundAt> lowest;  ///< below 0, else none
   std::size_t not_finite = 0;     ///< of the inputs looked at, in double
   std::string not_finite_at;      ///< the first of them
   std::string half;               ///< what it keeps in half, in a sentence
   std::optional<NearestForm> nearest;
   std::optional<NearestModel> model;  ///< of a whole model
+  std::string no_model;               ///< why none of ours is beside it
   std::vector<std::string> slips;
   std::vector<std::string> to_check;       ///< right or wrong by what the caller passes
   std::vector<std::string> not_looked_at;  ///< what could not be, and why

@@ -6,11 +6,11 @@
 #include <numbers>
 #include <span>
 
-#include "base/letters.h"
-#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
-#include "brdf/model/spec.h"
+#include "geometry/direction.h"
+#include "reports/finding/words.h"
 #include "reports/measure/samples.h"
+#include "reports/own/parameters.h"
 
 #include <fmt/format.h>
 
@@ -19,26 +19,6 @@ namespace {
 
 using auditing::Row;
 using auditing::Values;
-
-constexpr double same_within = 1e-3;
-constexpr std::array powers{1.0, 2.0, 0.5, 4.0};
-/// Stands for alpha = √(2/(exponent + 2)), of exponents of a cosine.
-constexpr double of_exponent = -2;
-double alpha_of(double width, double power) {
-  return power == of_exponent ? std::sqrt(2 / (width + 2)) : std::pow(width, power);
-}
-
-std::string plain_name(std::string_view name) {
-  std::string s;
-  for (const char c : name)
-    if (c != '_') s += lower_case(c);
-  return s;
-}
-bool is_exponent(std::string_view name) {
-  const auto n = plain_name(name);
-  return n.find("shin") != n.npos || n.find("expo") != n.npos || n == "n" || n == "power" ||
-         n == "specpower" || n == "specularpower";
-}
 
 /// Which of the file's parameters stands for each of the form's: [form's parameter] → the file's, or none.
 struct Pairing {
@@ -75,14 +55,25 @@ constexpr std::array<std::pair<double, const char*>, 9> usual_factors{
      {2, "twice too large: a factor ½ is missing, as in V = ½/(…)"},
      {0.5, "half of what it should be"}}};
 
-std::string factor_text(double factor) {
-  for (const auto& [value, text] : usual_factors)
-    if (std::abs(factor / value - 1) < same_within) return text;
-  return fmt::format("{:.4g} times that form", factor);
-}
 bool is_usual(double factor) {
   return std::ranges::any_of(
       usual_factors, [&](const auto& u) { return std::abs(factor / u.first - 1) < same_within; });
+}
+
+/// Of a distribution, the widths at which its peak is less than the form's.
+std::optional<Bite> bite_in(std::size_t term, const NearestForm& n, std::size_t width) {
+  const auto& own = catalogue()[term];
+  static const Row peak = auditing::row(30 * degree, 0, 30 * degree, std::numbers::pi);
+  return bite_of(own.parameters[width], n.power, [&](double w) {
+    Values p, q;
+    for (const auto& a : own.parameters) p.push_back(usual_of(a));
+    p[width] = w;
+    for (const auto& a : catalogue()[n.term].parameters)
+      q.push_back(a.name == "alpha" ? alpha_of(w, n.power) : a.start);
+    const std::span one(&peak, 1);
+    return values_in(Number::double_, term, p, one)[0] /
+           (n.factor * values_in(Number::double_, n.term, q, one)[0]);
+  });
 }
 
 /// Compares the file's function with one form, alpha being one power of its width.
@@ -126,7 +117,12 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     highest = std::max(highest, *std::ranges::max_element(f[k]));
     wanted = std::max(wanted, n.factor * *std::ranges::max_element(g[k]));
   }
-  if (own.role() == Role::ndf && highest < wanted * (1 - same_within)) n.cap = highest;
+  const std::size_t widest = pairing.width && narrows(power) ? 0 : f.size() - 1;
+  // A clamp is the largest value at the narrowest width, too; a guard makes that less.
+  if (const double narrowest = *std::ranges::max_element(f[f.size() - 1 - widest]);
+      own.role() == Role::ndf && highest < wanted * (1 - same_within) &&
+      narrowest >= highest * (1 - 1e-9))
+    n.cap = highest;
   if (power == of_exponent) {
     n.norms = Range{1e300, 0};
     for (std::size_t k = 0; k < f.size(); ++k) {
@@ -138,51 +134,43 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     n.cap.reset();
   }
   n.difference = 0;
+  double held_down = 0;  // the largest difference of what lies below the form
+  std::size_t low_rows = 0;
+  bool widest_is_held = false;
   for (std::size_t k = 0; k < f.size(); ++k) {
     const double peak = own.role() == Role::ndf ? *std::ranges::max_element(g[k]) : 1;
     for (std::size_t i = 0; i < rows.size(); ++i) {
       if (n.cap && n.factor * g[k][i] >= *n.cap * (1 - same_within) &&
           f[k][i] >= *n.cap * (1 - 1e-9))
         continue;
-      const double d = std::abs(f[k][i] / n.factor - g[k][i]) / std::max(peak, 1e-300);
-      n.difference = std::max(n.difference, std::isfinite(d) ? d : 1e9);
+      // Without a value is said elsewhere, where there is next to none.
+      if (!std::isfinite(f[k][i]) && g[k][i] < same_within * peak) continue;
+      const double off = (f[k][i] / n.factor - g[k][i]) / std::max(peak, 1e-300);
+      const double d = std::isfinite(off) ? std::abs(off) : 1e9;
+      if (own.role() == Role::ndf && off < -same_within) {
+        held_down = std::max(held_down, d);
+        ++low_rows;
+        widest_is_held = widest_is_held || k == widest;
+      } else {
+        n.difference = std::max(n.difference, d);
+      }
     }
   }
+  // A guard holds narrow peaks down, and nothing else differs.
+  if (low_rows > 0 &&
+      !(pairing.width && is_same(n) && !widest_is_held && 2 * low_rows < f.size() * rows.size() &&
+        (n.bite = bite_in(term, n, *pairing.width))))
+    n.difference = std::max(n.difference, held_down);
   return n;
 }
 
 }  // namespace
 
-bool is_rough(std::string_view name) {
-  return plain_name(name).find("rough") != std::string::npos;
+std::string factor_text(double factor) {
+  for (const auto& [value, text] : usual_factors)
+    if (std::abs(factor / value - 1) < same_within) return text;
+  return fmt::format("{:.4g} times that form", factor);
 }
-
-std::vector<double> values_between(const Parameter& p, std::size_t count) {
-  Range r = p.legal;
-  if (std::isnan(p.start)) r = {0.05, 1};
-  const bool by_ratio = r.low > 0 && r.high > 10 * r.low;
-  std::vector<double> v;
-  for (std::size_t k = 0; k < count; ++k) {
-    const double part = (static_cast<double>(k) + 0.5) / static_cast<double>(count);
-    v.push_back(by_ratio ? r.low * std::pow(r.high / r.low, part)
-                         : r.low + part * (r.high - r.low));
-  }
-  return v;
-}
-
-std::optional<std::size_t> width_of(std::span<const Parameter> parameters) {
-  for (const auto* name : {"alpha", "rough", "gloss", "sigma", "width"})
-    for (std::size_t k = 0; k < parameters.size(); ++k)
-      if (plain_name(parameters[k].name).starts_with(name)) return k;
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto n = plain_name(parameters[k].name);
-    if (is_exponent(n) || n == "a" || n == "a2" || n == "m" || n == "r" ||
-        n.find("rough") != n.npos)
-      return k;
-  }
-  return {};
-}
-
 bool is_same(const NearestForm& n) {
   return n.difference < same_within;
 }
@@ -194,10 +182,9 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
     const auto& entry = catalogue()[form];
     if (entry.role() != own.role() || entry.anisotropic || entry.coupled) continue;
     const Pairing pairing = pair_up(own, entry);
-    const bool by_exponent = pairing.width && is_exponent(own.parameters[*pairing.width].name);
+    static constexpr double as_it_is = 1;
     for (const double power :
-         by_exponent ? std::span(&of_exponent, 1) : std::span<const double>(powers)) {
-      if (power != 1 && !pairing.width) continue;
+         pairing.width ? powers_of(own.parameters[*pairing.width].name) : std::span(&as_it_is, 1)) {
       const auto n = compared(term, form, pairing, power);
       if (!std::isfinite(n.difference)) continue;
       // Forms may differ by rounding only, near a narrow peak by 1e-5: the first is taken, and the
@@ -215,7 +202,6 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
   if (!is_same(n)) return all;
   const auto& own = catalogue()[term];
   const auto& f = *foreign_term(term)->function;
-  const auto id = catalogue()[n.term].id();
   if (!n.width.empty()) {
     const auto& w = n.width;
     if (is_rough(w) && n.power == 4)
@@ -244,15 +230,13 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
     all.push_back(
         fmt::format("a clamp at {:.5g} cuts the peak below {} {:.3g}", *n.cap, n.width, w));
   }
+  if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, n.width, n.power));
   if (own.role() == Role::masking) {
     const auto name = plain_name(f.name.function);
     if (f.is_g && (name.starts_with("v") && !name.starts_with("vg")))
       all.push_back(
           "it gives G although it is called V: the division by 4 NoL NoV is missing, or stands "
           "elsewhere");
-    if (id == "masking.schlick_ggx.direct")
-      all.push_back(
-          "its k is that of direct light, (roughness + 1)²/8; under an environment k = alpha/2");
   }
   return all;
 }
@@ -265,122 +249,43 @@ std::vector<std::string> to_check(const std::string& width, double power) {
       width)};
 }
 
-std::optional<NearestModel> nearest_model(std::size_t term) {
-  const auto& own = catalogue()[term];
-  const auto width = width_of(own.parameters);
-  const auto f0 = std::ranges::find_if(own.parameters, [](const Parameter& p) {
-    const auto n = plain_name(p.name);
-    return n == "f0" || n == "r0" || n == "ks" || n.starts_with("specular");
-  });
-  if (own.role() != Role::diffuse || !width || f0 == own.parameters.end()) return {};
-  // Away from the horizon: shaders add to a denominator there.
-  constexpr double least_cosine = 0.3;
-  auto rows = auditing::rows_of(Role::diffuse);
-  std::erase_if(rows, [](const Row& r) { return std::min(r.nol, r.nov) < least_cosine; });
-  const auto widths = values_between(own.parameters[*width], 4);
-  // The function's values by width: with F = 1, and with what else the parameters are.
-  const auto values = [&](double f0_is, bool others) {
-    std::vector<Values> all;
-    for (const double w : widths) {
-      Values p;
-      for (const auto& q : own.parameters)
-        p.push_back(&q == &own.parameters[*width] ? w
-                    : &q == &*f0                  ? f0_is
-                    : std::isnan(q.start)         ? 0.5
-                    : others                      ? q.start
-                                                  : q.legal.low);
-      all.push_back(values_in(Number::double_, term, p, rows));
-    }
-    return all;
-  };
-  const auto dark = values(1, false);
-  const auto is_alpha_only = [](const TermEntry& e) {
-    return !e.anisotropic && !e.coupled &&
-           (e.parameters.empty() || (e.parameters.size() == 1 && e.parameters[0].name == "alpha"));
-  };
-  /// Values of each form of a role by width; none where alpha is none of the form's.
-  const auto forms = [&](Role role, double power) {
-    std::vector<std::pair<std::size_t, std::vector<Values>>> all;
-    for (std::size_t form = 0; form < catalogue_size(); ++form) {
-      if (catalogue()[form].role() != role || !is_alpha_only(catalogue()[form])) continue;
-      std::vector<Values> of;
-      for (const double w : widths)
-        if (const double alpha = alpha_of(w, power); catalogue()[form].parameters.empty())
-          of.push_back(values_in(Number::double_, form, {}, rows));
-        else if (catalogue()[form].parameters[0].legal.holds(alpha))
-          of.push_back(values_in(Number::double_, form, std::array{alpha}, rows));
-      if (of.size() == widths.size()) all.emplace_back(form, std::move(of));
-    }
-    return all;
-  };
-  const auto short_id = [](std::size_t form) {
-    const std::string id(catalogue()[form].id());
-    return id.substr(id.find('.') + 1);
-  };
-  struct Scaled {
-    double power;
-    std::vector<std::pair<std::size_t, std::vector<Values>>> shapes, maskings;
-  };
-  std::vector<Scaled> scaled;
-  for (const double power : powers)
-    scaled.push_back({power, forms(Role::ndf, power), forms(Role::masking, power)});
-  // One alpha for both is tried first.
-  std::vector<std::pair<const Scaled*, const Scaled*>> tries;
-  for (const auto& s : scaled) tries.emplace_back(&s, &s);
-  for (const auto& s : scaled)
-    for (const auto& t : scaled)
-      if (&s != &t) tries.emplace_back(&s, &t);
-  for (const auto& [of_d, of_v] : tries) {
-    for (const auto& [d, d_values] : of_d->shapes)
-      for (const auto& [v, v_values] : of_v->maskings) {
-        std::size_t peak = 0;
-        for (std::size_t i = 0; i < rows.size(); ++i)
-          if (d_values[0][i] * v_values[0][i] > d_values[0][peak] * v_values[0][peak]) peak = i;
-        const double highest = d_values[0][peak] * v_values[0][peak];
-        const double factor = dark[0][peak] / highest;
-        const auto is_highlight = [&](std::size_t k, std::size_t i) {
-          const double wanted = factor * d_values[k][i] * v_values[k][i];
-          return std::abs(dark[k][i] - wanted) <=
-                 same_within * std::abs(wanted) + 1e-30 * std::abs(factor) * highest;
-        };
-        bool same = factor > 0 && std::isfinite(factor);
-        for (std::size_t k = 0; same && k < widths.size(); ++k)
-          for (std::size_t i = 0; same && i < rows.size(); ++i) same = is_highlight(k, i);
-        if (!same) continue;
-        NearestModel n{"", std::string(own.parameters[*width].name), of_d->power, of_v->power,
-                       factor};
-        const auto with = values(f0->legal.low, true), without = values(f0->legal.low, false);
-        double least = 1e300, most = -1e300;
-        for (std::size_t i = 0; i < rows.size(); ++i) {
-          least = std::min(least, with[0][i] - without[0][i]);
-          most = std::max(most, with[0][i] - without[0][i]);
-        }
-        const bool is_lambert = least > 0 && most < least * (1 + same_within);
-        n.lacks_diffuse = !is_lambert && most > same_within;
-        auto spec = model_of_lobe(short_id(d), short_id(v), "schlick");
-        if (is_lambert) spec.diffuse = "lambert";
-        n.spec = to_text(spec);
-        n.operations = operations_of(compose(spec, f0->per_channel ? 3 : 1)).total();
-        return n;
-      }
-  }
-  return {};
+std::vector<std::string> to_check(const NearestForm& n) {
+  if (!is_same(n)) return {};
+  auto all = to_check(n.width, n.power);
+  if (catalogue()[n.term].id() == "masking.schlick_ggx.direct") all.emplace_back(k_of_direct_light);
+  if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, n.width, n.power));
+  return all;
 }
 
-std::vector<std::string> likely_slips(const NearestModel& n) {
-  std::vector<std::string> all;
-  if (std::abs(n.factor - 1) > same_within)
-    all.push_back("its highlight is " + factor_text(n.factor));
-  const auto alpha = [&](double power) {
-    return power == 0.5 ? "√" + n.width : n.width + (power == 2 ? "²" : power == 4 ? "⁴" : "");
-  };
-  if (n.power != n.masking_power)
-    all.push_back(fmt::format("alpha is {} in D and {} in V: expected one alpha for both",
-                              alpha(n.power), alpha(n.masking_power)));
-  if (is_rough(n.width) && n.power == 4)
-    all.push_back(fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²",
-                              n.width, n.width, n.width));
-  return all;
+std::optional<Bite> bite_of(const Parameter& width,
+                            double power,
+                            const std::function<double(double)>& left) {
+  constexpr double bitten = 0.9, materials = 0.04;
+  constexpr std::size_t steps = 40;
+  const bool is_narrow_high = narrows(power);
+  const double low = low_of(width), high = high_of(width), least = 1e-3 * (high - low);
+  // At no width at all there is no peak.
+  double narrow = is_narrow_high ? (power == of_exponent ? high : std::min(high, 1 - least))
+                                 : std::max(low, least);
+  double wide = is_narrow_high ? low : high;
+  Bite b;
+  b.narrowest = narrow;
+  b.left = left(narrow);
+  if (!(b.left < bitten) || !(left(wide) > bitten)) return {};
+  for (std::size_t k = 0; k < steps; ++k) {
+    const double middle = (narrow + wide) / 2;
+    (left(middle) < bitten ? narrow : wide) = middle;
+  }
+  b.from = narrow;
+  b.is_little = alpha_of(b.from, power) < materials;
+  return b;
+}
+
+std::string text_of(const Bite& b, const std::string& width, double power) {
+  return fmt::format(
+      "a guard or a clamp cuts the peak {} {} {:.3g}: {:.2g} of it is left at {:.3g}{}",
+      narrows(power) ? "above" : "below", width, b.from, b.left, b.narrowest,
+      b.is_little ? "; right where no material is so smooth" : "");
 }
 
 }  // namespace gonio

@@ -1,0 +1,325 @@
+#include "reports/own/nearest_model.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <numbers>
+
+#include "brdf/catalogue/foreign_terms.h"
+#include "brdf/cost/model_operations.h"
+#include "brdf/in_number/number.h"
+#include "brdf/model/spec.h"
+#include "geometry/direction.h"
+#include "reports/finding/words.h"
+#include "reports/measure/samples.h"
+#include "reports/own/parameters.h"
+#include "reports/own/slip_forms.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+namespace {
+
+using auditing::Row;
+using auditing::Values;
+
+/// (1 − c)⁵ of Schlick's form.
+double fifth(double c) {
+  const double u = 1 - c;
+  return u * u * u * u * u;
+}
+
+/// What a slip multiplies a highlight with.
+struct Disguise {
+  double (*factor)(const Row&);
+  const char* slip;
+};
+constexpr std::array<Disguise, 4> disguises{{
+    {[](const Row&) { return 1.0; }, ""},
+    {[](const Row& r) { return 1 + fifth(r.voh); }, ""},  // said of F
+    {[](const Row& r) { return 4 * r.nol * r.nov; },
+     "G stands where V belongs: its highlight lacks the division by 4 NoL NoV"},
+    {[](const Row& r) { return r.nol; },
+     "its highlight has the cosine NoL in it, which its diffuse part has not"},
+}};
+
+/// Light and view mirrored at 30°: D and V are at their peaks, nearly.
+const Row& mirrored() {
+  static const Row row = auditing::row(30 * degree, 0, 30 * degree, std::numbers::pi);
+  return row;
+}
+
+/// A term's values over rows, by width.
+using ByWidth = std::vector<Values>;
+struct Form {
+  std::size_t term;
+  ByWidth values;
+};
+
+/// A whole function with the parameters that make its parts, and the search for the model that it is.
+class Search {
+ public:
+  Search(std::size_t term, std::size_t width, const PartColours& colours)
+      : term_(term), own_(catalogue()[term]), width_(width), colours_(colours) {
+    // Away from the horizon: shaders add to a denominator there.
+    constexpr double least_cosine = 0.3;
+    for (const auto& r : auditing::rows_of(Role::diffuse))
+      (std::min(r.nol, r.nov) < least_cosine ? grazing_ : rows_).push_back(r);
+    widths_ = values_between(own_.parameters[width_], 4);
+    // The widest first: there no guard bites.
+    const auto powers = powers_of(own_.parameters[width_].name);
+    if (!narrows(powers[0])) std::ranges::reverse(widths_);
+    for (const double power : powers)
+      scaled_.push_back({power, forms(Role::ndf, power), forms(Role::masking, power)});
+  }
+
+  std::optional<NearestModel> found() {
+    for (const auto& d : disguises)
+      for (const auto others : {Others::low, Others::usual}) {
+        others_ = others;
+        disguise_ = &d;
+        white_.clear();
+        for (const double w : widths_) white_.push_back(highlight(1, w, rows_));
+        if (auto n = of_highlight()) return n;
+      }
+    return {};
+  }
+
+ private:
+  struct Scaled {
+    double power;
+    std::vector<Form> shapes, maskings;
+  };
+
+  Values highlight(double f0, double width, std::span<const Row> rows) const {
+    auto p = with_highlight(own_.parameters, colours_, f0, others_);
+    p[width_] = width;
+    return values_in(Number::double_, term_, p, rows);
+  }
+  Values diffuse(double colour, Others others) const {
+    auto p = with_diffuse(own_.parameters, colours_, colour, others);
+    p[width_] = widths_[0];
+    return values_in(Number::double_, term_, p, rows_);
+  }
+  static Values values_of(std::size_t form, double alpha, std::span<const Row> rows) {
+    const Values p(catalogue()[form].parameters.size(), alpha);
+    return values_in(Number::double_, form, p, rows);
+  }
+  /// Values of each form of a role, from the widest as far as alpha is one of the form's.
+  std::vector<Form> forms(Role role, double power) const {
+    std::vector<Form> all;
+    for (std::size_t form = 0; form < catalogue_size(); ++form) {
+      const auto& e = catalogue()[form];
+      const bool is_alpha_only =
+          !e.anisotropic && !e.coupled &&
+          (e.parameters.empty() || (e.parameters.size() == 1 && e.parameters[0].name == "alpha"));
+      if (e.role() != role || !is_alpha_only) continue;
+      ByWidth of;
+      for (const double w : widths_) {
+        const double alpha = alpha_of(w, power);
+        if (!e.parameters.empty() && !e.parameters[0].legal.holds(alpha)) break;
+        of.push_back(values_of(form, alpha, rows_));
+      }
+      constexpr std::size_t enough = 2;  // narrower ones may be no alpha of the form's
+      if (of.size() >= enough) all.push_back({form, std::move(of)});
+    }
+    return all;
+  }
+
+  std::optional<NearestModel> of_highlight() const {
+    // One alpha for both is tried first.
+    for (const bool is_one : {true, false})
+      for (const auto& of_d : scaled_)
+        for (const auto& of_v : scaled_) {
+          if ((&of_d == &of_v) != is_one) continue;
+          for (const auto& d : of_d.shapes)
+            for (const auto& v : of_v.maskings)
+              if (const double factor = factor_of(d, v); factor > 0)
+                return described(d, of_d.power, v, of_v.power, factor);
+        }
+    return {};
+  }
+  /// The function's highlight over D V, where it is that: everywhere at the widest, and elsewhere but for rows that a guard holds
+  /// down; 0 where it is not.
+  double factor_of(const Form& d, const Form& v) const {
+    const auto wanted = [&](std::size_t k, std::size_t i) {
+      return d.values[k][i] * v.values[k][i] * disguise_->factor(rows_[i]);
+    };
+    std::size_t peak = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (wanted(0, i) > wanted(0, peak)) peak = i;
+    const double factor = white_[0][peak] / wanted(0, peak);
+    if (!(factor > 0) || !std::isfinite(factor)) return 0;
+    const double least = 1e-30 * std::abs(white_[0][peak]);
+    std::size_t held_down = 0;
+    const std::size_t widths = std::min(d.values.size(), v.values.size());
+    for (std::size_t k = 0; k < widths; ++k)
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const double w = factor * wanted(k, i), off = white_[k][i] - w;
+        if (std::abs(off) <= same_within * std::abs(w) + least) continue;
+        if (k == 0 || !(off < 0)) return 0;
+        ++held_down;
+      }
+    return 2 * held_down < (widths - 1) * rows_.size() ? factor : 0;
+  }
+
+  NearestModel described(
+      const Form& d, double d_power, const Form& v, double v_power, double factor) const {
+    NearestModel n{"", std::string(own_.parameters[width_].name), d_power, v_power, factor};
+    n.disguise = disguise_->slip;
+    const auto over_form = [&](const Values& f, double width, std::span<const Row> rows) {
+      const auto x = values_of(d.term, alpha_of(width, d_power), rows),
+                 y = values_of(v.term, alpha_of(width, v_power), rows);
+      Values r;
+      for (std::size_t i = 0; i < rows.size(); ++i) r.push_back(f[i] / (factor * x[i] * y[i]));
+      return r;
+    };
+    n.bite = bite_of(own_.parameters[width_], d_power, [&](double w) {
+      const std::span one(&mirrored(), 1);
+      return over_form(highlight(1, w, one), w, one)[0] / disguise_->factor(mirrored());
+    });
+    take_horizon(n, over_form(highlight(1, widths_[0], grazing_), widths_[0], grazing_));
+    const auto short_id = [](std::size_t form) {
+      const std::string id(catalogue()[form].id());
+      return id.substr(id.find('.') + 1);
+    };
+    auto spec = model_of_lobe(short_id(d.term), short_id(v.term), "schlick");
+    if (const auto form = take_fresnel(n, over_form)) spec.lobes[0].fresnel = short_id(*form);
+    if (take_diffuse(n)) spec.diffuse = "lambert";
+    n.spec = to_text(spec);
+    const auto* f = foreign_term(term_);
+    const bool is_colour = f->function->programs.size() == 3 ||
+                           std::ranges::any_of(own_.parameters, &Parameter::per_channel);
+    n.operations = operations_of(compose(spec, is_colour ? 3 : 1)).total();
+    return n;
+  }
+
+  void take_horizon(NearestModel& n, const Values& over) const {
+    std::size_t least = 0;
+    for (std::size_t i = 0; i < over.size(); ++i)
+      if (over[i] / disguise_->factor(grazing_[i]) <
+          over[least] / disguise_->factor(grazing_[least]))
+        least = i;
+    constexpr double much = 0.8;
+    const double left = over[least] / disguise_->factor(grazing_[least]);
+    if (left < much)
+      n.horizon = fmt::format(
+          "a guard below holds its highlight down towards the horizon: {:.2g} of it is left at {}",
+          left, auditing::text(grazing_[least]));
+  }
+
+  /// Sets what is said of F, and returns the form of the catalogue that it is, if there is one.
+  std::optional<std::size_t> take_fresnel(NearestModel& n, const auto& over_form) const {
+    const auto& colour = own_.parameters[colours_.f0[0]];
+    const double f0 = low_of(colour) + 0.04 * (high_of(colour) - low_of(colour));
+    auto f = over_form(highlight(f0, widths_[0], rows_), widths_[0], rows_);
+    const bool is_of_f = disguise_ == &disguises[1];
+    for (std::size_t i = 0; i < f.size() && !is_of_f; ++i) f[i] /= disguise_->factor(rows_[i]);
+    const auto is = [&](auto value) {
+      for (std::size_t i = 0; i < f.size(); ++i)
+        if (!(std::abs(f[i] - value(i)) < 2e-3)) return false;
+      return true;
+    };
+    for (std::size_t form = 0; form < catalogue_size(); ++form) {
+      const auto& e = catalogue()[form];
+      if (e.role() != Role::fresnel || e.coupled || e.parameters.empty() ||
+          e.parameters[0].name != "f0" || is_of_f)
+        continue;
+      Values p;
+      for (const auto& q : e.parameters) p.push_back(q.start);
+      p[0] = f0;
+      const auto values = values_in(Number::double_, form, p, rows_);
+      if (is([&](std::size_t i) { return values[i]; })) return form;
+    }
+    n.fresnel_slip = fresnel_slip(f0, rows_, f);
+    n.other_fresnel = n.fresnel_slip.empty();
+    return {};
+  }
+
+  /// Sets what is said of the diffuse part; true where it is Lambert's.
+  bool take_diffuse(NearestModel& n) const {
+    const bool has_colour = !colours_.diffuse.empty();
+    double high = 1, low = 0;
+    Values with, without;
+    if (has_colour) {
+      const auto& p = own_.parameters[colours_.diffuse[0]];
+      high = high_of(p), low = low_of(p);
+      with = diffuse(high, others_), without = diffuse(low, others_);
+    } else {
+      with = diffuse(0, Others::usual), without = diffuse(0, Others::low);
+    }
+    double least = 1e300, most = -1e300;
+    for (std::size_t i = 0; i < rows_.size(); ++i) {
+      least = std::min(least, with[i] - without[i]);
+      most = std::max(most, with[i] - without[i]);
+    }
+    const bool is_lambert = least > 0 && most < least * (1 + same_within);
+    n.lacks_diffuse = !is_lambert && most > same_within;
+    // Weighted by 1 − F it is somewhat less.
+    if (const double of_lambert = most / (high - low) * std::numbers::pi;
+        has_colour && of_lambert > 0.93 * std::numbers::pi && of_lambert < 1.001 * std::numbers::pi)
+      n.diffuse_factor = std::numbers::pi;
+    return is_lambert;
+  }
+
+  std::size_t term_;
+  const TermEntry& own_;
+  std::size_t width_;
+  PartColours colours_;
+  std::vector<Row> rows_, grazing_;
+  std::vector<double> widths_;
+  std::vector<Scaled> scaled_;
+  Others others_ = Others::low;
+  const Disguise* disguise_ = nullptr;
+  ByWidth white_;
+};
+
+}  // namespace
+
+std::optional<NearestModel> nearest_model(std::size_t term, std::string& why) {
+  const auto& own = catalogue()[term];
+  if (own.role() != Role::diffuse) return {};
+  const auto width = width_of(own.parameters);
+  if (!width) {
+    why = "no parameter is a width by its name, as alpha or roughness";
+    return {};
+  }
+  const auto colours = part_colours(own.parameters);
+  if (!colours) {
+    why = "no parameter is F0 by its name, as f0, specularColor, or albedo beside metallic";
+    return {};
+  }
+  auto n = Search(term, *width, *colours).found();
+  if (!n)
+    why = fmt::format("no D and V of ours make its highlight at any power of {}",
+                      own.parameters[*width].name);
+  return n;
+}
+
+std::vector<std::string> likely_slips(const NearestModel& n) {
+  std::vector<std::string> all;
+  if (std::abs(n.factor - 1) > same_within)
+    all.push_back("its highlight is " + factor_text(n.factor));
+  if (!n.disguise.empty()) all.push_back(n.disguise);
+  if (n.diffuse_factor != 1) all.push_back("its diffuse part is " + factor_text(n.diffuse_factor));
+  if (n.power != n.masking_power)
+    all.push_back(fmt::format("alpha is {} in D and {} in V: expected one alpha for both",
+                              alpha_text(n.width, n.power), alpha_text(n.width, n.masking_power)));
+  if (is_rough(n.width) && n.power == 4)
+    all.push_back(fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²",
+                              n.width, n.width, n.width));
+  if (!n.fresnel_slip.empty()) all.push_back(n.fresnel_slip);
+  if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, n.width, n.power));
+  if (!n.horizon.empty()) all.push_back(n.horizon);
+  return all;
+}
+
+std::vector<std::string> to_check(const NearestModel& n) {
+  auto all = to_check(n.width, n.power);
+  if (n.spec.find("/schlick_ggx.direct/") != n.spec.npos) all.emplace_back(k_of_direct_light);
+  if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, n.width, n.power));
+  return all;
+}
+
+}  // namespace gonio

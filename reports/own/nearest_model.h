@@ -1,0 +1,40 @@
+#pragma once
+/// \file
+/// Which model of the catalogue a whole function of a person's file is, and by which slip it differs.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "reports/own/nearest.h"
+
+namespace gonio {
+
+/// Model of the catalogue whose highlight a whole function has.
+struct NearestModel {
+  std::string spec;
+  std::string width;
+  double power = 1;          ///< of D: alpha = width^power
+  double masking_power = 1;  ///< of V
+  double factor = 1;         ///< the function's highlight over the model's
+  std::size_t operations = 0;
+  bool lacks_diffuse =
+      false;  ///< the function has a diffuse part that is not Lambert's, which the model has not
+  double diffuse_factor = 1;   ///< its diffuse part over Lambert's, where that is 1 or π
+  bool other_fresnel = false;  ///< F is that of none of ours
+  std::string disguise;        ///< what its highlight is multiplied with, a sentence
+  std::string fresnel_slip;    ///< a sentence
+  std::optional<Bite> bite;
+  std::string horizon;  ///< a guard that holds it down there, a sentence
+};
+
+/// The model whose D V F is the function's, with its other colours dark, but for a factor and what slips make of it.
+/// \param why  why there is none
+std::optional<NearestModel> nearest_model(std::size_t foreign_term, std::string& why);
+/// The likely mistakes in its factor, its width and its parts, a sentence each.
+std::vector<std::string> likely_slips(const NearestModel&);
+/// What is right for some uses and wrong for others, a sentence each.
+std::vector<std::string> to_check(const NearestModel&);
+
+}  // namespace gonio

@@ -1,0 +1,66 @@
+#pragma once
+/// \file
+/// What parameters of a person's function stand for, by their names.
+
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "number/parameter.h"
+
+namespace gonio {
+
+/// A name in lower case without underscores.
+std::string plain_name(std::string_view);
+/// "tint" of "tint_r": the channels of a colour are one.
+std::string_view stem_of(std::string_view name);
+/// True of a parameter that scales the light: a colour, one channel of it, or f0, kd and their like.
+bool is_colour(const Parameter&);
+/// Whether a parameter's name says roughness, whose square alpha is.
+bool is_rough(std::string_view name);
+/// Whether it is the exponent of a cosine.
+bool is_exponent(std::string_view name);
+/// The parameter whose name says that it is a width: alpha, roughness, m …
+std::optional<std::size_t> width_of(std::span<const Parameter>);
+
+/// A parameter's low end, default and high end; of one without bounds 0.05, 0.5 and 1.
+double low_of(const Parameter&);
+double usual_of(const Parameter&);
+double high_of(const Parameter&);
+/// Values at which a function is looked at: within the parameter's bounds, or within [0.05, 1] where it has none.
+std::vector<double> values_between(const Parameter&, std::size_t count);
+
+/// Maps from a file's width to the catalogue's alpha: a power; or √(2/(width + 2)) of an exponent, (1 − width)² or 1 − width of a gloss.
+inline constexpr double of_exponent = -2, of_gloss = -3, of_gloss_as_alpha = -4;
+double alpha_of(double width, double power);
+/// Those that a width of that name may have, the likeliest first.
+std::span<const double> powers_of(std::string_view width);
+/// True where more of the width is a narrower lobe.
+bool narrows(double power);
+/// "roughness²", "√(2/(n + 2))"
+std::string alpha_text(const std::string& width, double power);
+
+/// The parameters that colour the two parts of a whole model.
+struct PartColours {
+  std::vector<std::size_t> f0, diffuse;  ///< the same where there is a metallic
+  std::optional<std::size_t> metallic;
+};
+/// By the names f0, specular, ks …, or albedo and metallic; none where nothing has such a name.
+std::optional<PartColours> part_colours(std::span<const Parameter>);
+
+/// Parameters that are neither a width nor colour one of the parts.
+enum class Others { low, usual };
+/// Values with which only the highlight is left, of that F0; and only the diffuse part, but for a highlight of the least F0.
+std::vector<double> with_highlight(std::span<const Parameter>,
+                                   const PartColours&,
+                                   double f0,
+                                   Others);
+std::vector<double> with_diffuse(std::span<const Parameter>,
+                                 const PartColours&,
+                                 double colour,
+                                 Others);
+
+}  // namespace gonio

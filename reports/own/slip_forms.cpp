@@ -1,0 +1,128 @@
+#include "reports/own/slip_forms.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+
+#include "brdf/catalogue/foreign_terms.h"
+#include "brdf/in_number/number.h"
+#include "reports/own/nearest.h"
+#include "reports/own/parameters.h"
+
+namespace gonio {
+namespace {
+
+using auditing::Row;
+using auditing::Values;
+
+struct SlipForm {
+  double (*value)(double parameter, const Row&);  ///< of F0 or of alpha
+  const char* slip;
+};
+
+/// (1 − c)ⁿ of Schlick's form and its like.
+double darkened(double c, int n) {
+  return std::pow(1 - c, n);
+}
+
+constexpr std::array<SlipForm, 10> of_fresnel{{
+    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.noh, 5); },
+     "its Fresnel term takes NoH where VoH belongs"},
+    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.nov, 5); },
+     "its Fresnel term takes NoV where VoH belongs"},
+    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.nol, 5); },
+     "its Fresnel term takes NoL where VoH belongs"},
+    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.voh, 4); },
+     "its Fresnel term has the power 4, Schlick's has 5"},
+    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.voh, 6); },
+     "its Fresnel term has the power 6, Schlick's has 5"},
+    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.voh, 3); },
+     "its Fresnel term has the power 3, Schlick's has 5"},
+    {[](double f, const Row& r) { return f + f * darkened(r.voh, 5); },
+     "its Fresnel term is F0 + F0 (1 − VoH)⁵, expected F0 + (1 − F0) (1 − VoH)⁵"},
+    {[](double f, const Row& r) { return f + darkened(r.voh, 5); },
+     "its Fresnel term is F0 + (1 − VoH)⁵, expected F0 + (1 − F0) (1 − VoH)⁵"},
+    {[](double f, const Row& r) { return f + (1 - f) * std::pow(r.voh, 5); },
+     "its Fresnel term has VoH⁵ where (1 − VoH)⁵ belongs"},
+    {[](double f, const Row& r) { return 1 + (f - 1) * darkened(r.voh, 5); },
+     "its Fresnel term mixes from 1 to F0, expected from F0 to 1"},
+}};
+
+/// NoH² (α² − 1) + 1 of GGX.
+double ggx_below(double alpha, const Row& r) {
+  return r.noh * r.noh * (alpha * alpha - 1) + 1;
+}
+constexpr std::array<SlipForm, 2> of_distribution{{
+    {[](double a, const Row& r) { return a * a / (std::numbers::pi * ggx_below(a, r)); },
+     "the denominator of GGX is not squared"},
+    {[](double a, const Row& r) {
+       const double d = ggx_below(a, r);
+       return a / (std::numbers::pi * d * d);
+     },
+     "alpha stands above where alpha² belongs"},
+}};
+
+/// √(c² (1 − α²) + α²) of Smith's masking for GGX.
+double smith_root(double alpha, double c) {
+  return std::sqrt(c * c * (1 - alpha * alpha) + alpha * alpha);
+}
+constexpr std::array<SlipForm, 1> of_masking{{
+    {[](double a, const Row& r) {
+       return 0.5 / (r.nol * smith_root(a, r.nol) + r.nov * smith_root(a, r.nov));
+     },
+     "NoL and NoV are swapped: expected NoV beside the root with NoL, and NoL beside the one with "
+     "NoV"},
+}};
+
+}  // namespace
+
+std::string fresnel_slip(double f0, std::span<const Row> rows, std::span<const double> values) {
+  constexpr double same = 2e-3;
+  for (const auto& s : of_fresnel) {
+    bool is = true;
+    for (std::size_t i = 0; is && i < rows.size(); ++i)
+      is = std::abs(values[i] - s.value(f0, rows[i])) < same;
+    if (is) return s.slip;
+  }
+  return "";
+}
+
+std::string slip_form(std::size_t term) {
+  const auto& own = catalogue()[term];
+  const auto& rows = auditing::rows_of(own.role());
+  if (own.role() == Role::fresnel) {
+    const auto colours = part_colours(own.parameters);
+    if (!colours && own.parameters.size() != 1) return "";
+    const auto& f0 = own.parameters[colours ? colours->f0[0] : 0];
+    Values p;
+    for (const auto& q : own.parameters) p.push_back(usual_of(q));
+    const double at = low_of(f0) + 0.1 * (high_of(f0) - low_of(f0));
+    p[colours ? colours->f0[0] : 0] = at;
+    return fresnel_slip(at, rows, values_in(Number::double_, term, p, rows));
+  }
+  const auto width = width_of(own.parameters);
+  if (!width || own.anisotropic || own.role() == Role::diffuse) return "";
+  std::span<const SlipForm> forms = of_masking;
+  if (own.role() == Role::ndf) forms = of_distribution;
+  constexpr std::size_t places = 4;
+  const auto widths = values_between(own.parameters[*width], places);
+  for (const double power : powers_of(own.parameters[*width].name))
+    for (const auto& s : forms) {
+      bool is = true;
+      for (std::size_t k = 0; is && k < places; ++k) {
+        Values p;
+        for (const auto& q : own.parameters) p.push_back(usual_of(q));
+        p[*width] = widths[k];
+        const auto v = values_in(Number::double_, term, p, rows);
+        for (std::size_t i = 0; is && i < rows.size(); ++i) {
+          const double wanted = s.value(alpha_of(widths[k], power), rows[i]);
+          is = !std::isfinite(wanted) || std::abs(v[i] / wanted - 1) < same_within;
+        }
+      }
+      if (is) return s.slip;
+    }
+  return "";
+}
+
+}  // namespace gonio
