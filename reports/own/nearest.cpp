@@ -88,7 +88,9 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
   constexpr std::size_t places = 5;
   for (std::size_t k = 0; k < places; ++k) {
     Values p, q;
-    for (const auto& a : own.parameters) p.push_back(values_between(a, places)[k]);
+    // Of two widths, two values.
+    for (const auto& a : own.parameters)
+      p.push_back(values_between(a, places)[(k + (own.anisotropic ? 2 * p.size() : 0)) % places]);
     bool is_legal = true;
     for (std::size_t j = 0; j < other.parameters.size(); ++j) {
       const auto from = pairing.of[j];
@@ -180,7 +182,16 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
   std::optional<NearestForm> best;
   for (std::size_t form = 0; form < catalogue_size(); ++form) {
     const auto& entry = catalogue()[form];
-    if (entry.role() != own.role() || entry.anisotropic || entry.coupled) continue;
+    if (entry.role() != own.role() || entry.anisotropic != own.anisotropic || entry.coupled)
+      continue;
+    if (own.anisotropic) {  // the widths along the tangent and the bitangent, in either order
+      if (own.parameters.size() != 2 || entry.parameters.size() != 2) continue;
+      for (const std::size_t first : {0, 1}) {
+        const auto n = compared(term, form, {{first, 1 - first}, {}}, 1);
+        if (std::isfinite(n.difference) && (!best || n.difference < best->difference)) best = n;
+      }
+      continue;
+    }
     const Pairing pairing = pair_up(own, entry);
     static constexpr double as_it_is = 1;
     for (const double power :

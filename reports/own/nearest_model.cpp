@@ -232,7 +232,7 @@ class Search {
       const auto values = values_in(Number::double_, form, p, rows_);
       if (is([&](std::size_t i) { return values[i]; })) return form;
     }
-    n.fresnel_slip = fresnel_slip(f0, rows_, f);
+    n.fresnel_slip = fresnel_slip(f0, rows_, f, true);
     n.other_fresnel = n.fresnel_slip.empty();
     return {};
   }

@@ -26,13 +26,15 @@ double darkened(double c, int n) {
   return std::pow(1 - c, n);
 }
 
-constexpr std::array<SlipForm, 10> of_fresnel{{
+constexpr std::array<SlipForm, 3> of_cosine{{
     {[](double f, const Row& r) { return f + (1 - f) * darkened(r.noh, 5); },
      "its Fresnel term takes NoH where VoH belongs"},
     {[](double f, const Row& r) { return f + (1 - f) * darkened(r.nov, 5); },
      "its Fresnel term takes NoV where VoH belongs"},
     {[](double f, const Row& r) { return f + (1 - f) * darkened(r.nol, 5); },
      "its Fresnel term takes NoL where VoH belongs"},
+}};
+constexpr std::array<SlipForm, 7> of_fresnel{{
     {[](double f, const Row& r) { return f + (1 - f) * darkened(r.voh, 4); },
      "its Fresnel term has the power 4, Schlick's has 5"},
     {[](double f, const Row& r) { return f + (1 - f) * darkened(r.voh, 6); },
@@ -67,24 +69,49 @@ constexpr std::array<SlipForm, 2> of_distribution{{
 double smith_root(double alpha, double c) {
   return std::sqrt(c * c * (1 - alpha * alpha) + alpha * alpha);
 }
+constexpr const char* swapped_cosines =
+    "NoL and NoV are swapped: expected NoV beside the root with NoL, and NoL beside the one with "
+    "NoV";
 constexpr std::array<SlipForm, 1> of_masking{{
     {[](double a, const Row& r) {
        return 0.5 / (r.nol * smith_root(a, r.nol) + r.nov * smith_root(a, r.nov));
      },
-     "NoL and NoV are swapped: expected NoV beside the root with NoL, and NoL beside the one with "
-     "NoV"},
+     swapped_cosines},
 }};
+
+std::string swapped_of_two_widths(std::size_t term) {
+  const auto& rows = auditing::rows_of(Role::masking);
+  const auto& parameters = catalogue()[term].parameters;
+  const Values p{usual_of(parameters[0]), 0.7 * high_of(parameters[1])};
+  const auto v = values_in(Number::double_, term, p, rows);
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const auto& r = rows[i];
+    const auto root = [&](double x, double y, double z) {
+      return std::hypot(p[0] * x, p[1] * y, z);
+    };
+    const double wanted =
+        0.5 / (r.nol * root(r.xol, r.yol, r.nol) + r.nov * root(r.xov, r.yov, r.nov));
+    if (!(std::abs(v[i] / wanted - 1) < same_within)) return "";
+  }
+  return swapped_cosines;
+}
 
 }  // namespace
 
-std::string fresnel_slip(double f0, std::span<const Row> rows, std::span<const double> values) {
+std::string fresnel_slip(double f0,
+                         std::span<const Row> rows,
+                         std::span<const double> values,
+                         bool of_model) {
   constexpr double same = 2e-3;
-  for (const auto& s : of_fresnel) {
-    bool is = true;
-    for (std::size_t i = 0; is && i < rows.size(); ++i)
-      is = std::abs(values[i] - s.value(f0, rows[i])) < same;
-    if (is) return s.slip;
-  }
+  const auto is = [&](const SlipForm& s) {
+    for (std::size_t i = 0; i < rows.size(); ++i)
+      if (!(std::abs(values[i] - s.value(f0, rows[i])) < same)) return false;
+    return true;
+  };
+  for (const auto& s : of_fresnel)
+    if (is(s)) return s.slip;
+  for (const auto& s : of_cosine)
+    if (of_model && is(s)) return s.slip;
   return "";
 }
 
@@ -99,8 +126,10 @@ std::string slip_form(std::size_t term) {
     for (const auto& q : own.parameters) p.push_back(usual_of(q));
     const double at = low_of(f0) + 0.1 * (high_of(f0) - low_of(f0));
     p[colours ? colours->f0[0] : 0] = at;
-    return fresnel_slip(at, rows, values_in(Number::double_, term, p, rows));
+    return fresnel_slip(at, rows, values_in(Number::double_, term, p, rows), false);
   }
+  if (own.anisotropic && own.role() == Role::masking && own.parameters.size() == 2)
+    return swapped_of_two_widths(term);
   const auto width = width_of(own.parameters);
   if (!width || own.anisotropic || own.role() == Role::diffuse) return "";
   std::span<const SlipForm> forms = of_masking;

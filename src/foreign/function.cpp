@@ -715,16 +715,24 @@ class Builder {
     }
     auto dark = starts;
     for (const auto& g : colours) dark = with(dark, g, low);
-    std::vector<std::vector<double>> places{dark};
-    for (const auto k : others)
-      for (const auto* end : {&low, &high}) places.push_back(with(dark, {k}, *end));
-    for (const auto& g : colours) {
-      double largest = 0;
-      for (const auto& p : places)
-        largest = std::fmax(largest, (rough_albedo(with(p, g, high), cosine) -
-                                      rough_albedo(with(p, g, low), cosine)) /
-                                         (high[g[0]] - low[g[0]]));
-      take(largest);
+    // One colour may be that of a diffuse part, and of a metal's highlight.
+    const auto metal = std::ranges::find_if(
+        others, [&](std::size_t k) { return plain(f_.parameters[k].name).starts_with("metal"); });
+    std::vector<std::vector<double>> kinds{dark};
+    if (metal != others.end()) kinds = {with(dark, {*metal}, low), with(dark, {*metal}, high)};
+    for (const auto& kind : kinds) {
+      std::vector<std::vector<double>> places{kind};
+      for (const auto k : others)
+        for (const auto* end : {&low, &high})
+          if (metal == others.end() || k != *metal) places.push_back(with(kind, {k}, *end));
+      for (const auto& g : colours) {
+        double largest = 0;
+        for (const auto& p : places)
+          largest = std::fmax(largest, (rough_albedo(with(p, g, high), cosine) -
+                                        rough_albedo(with(p, g, low), cosine)) /
+                                           (high[g[0]] - low[g[0]]));
+        take(largest);
+      }
     }
     constexpr double little = 0.2;  // as a roughness that a diffuse part is nearly linear in
     if (most < little) take(rough_albedo(starts, cosine));

@@ -107,6 +107,41 @@ std::optional<Declared> declared_by_comment(int number, std::string_view line) {
   return d;
 }
 
+/// A declaration without the qualifiers by which it belongs to a shader's interface; as it is where it has none of "in" and "out".
+std::string_view without_interface(std::string_view declaration) {
+  static constexpr std::string_view interpolation[] = {"flat",     "smooth", "noperspective",
+                                                       "centroid", "highp",  "mediump",
+                                                       "lowp"},
+                                    between[] = {"in", "out", "varying", "attribute"};
+  std::string_view rest = declaration;
+  bool is_between = false;
+  while (true) {
+    rest.remove_prefix(std::min(rest.find_first_not_of(" \t\r"), rest.size()));
+    const auto word = rest.substr(0, std::min(rest.find_first_of(" \t\r("), rest.size()));
+    if (word == "layout" && rest.find(')') != rest.npos) {
+      rest.remove_prefix(rest.find(')') + 1);
+      continue;
+    }
+    const bool is_next = std::ranges::find(between, word) != std::end(between);
+    if (!is_next && std::ranges::find(interpolation, word) == std::end(interpolation)) break;
+    is_between = is_between || is_next;
+    rest.remove_prefix(word.size());
+  }
+  return is_between && rest.find_first_of("({") == rest.npos ? rest : declaration;
+}
+
+/// A line outside functions, each of its declarations without what belongs to a shader's interface.
+std::string without_stages(std::string_view line) {
+  const auto end = std::min(line.find("//"), line.size());
+  std::string s;
+  std::size_t from = 0;
+  for (auto semicolon = line.find(';'); semicolon < end; semicolon = line.find(';', from)) {
+    s += without_interface(line.substr(from, semicolon + 1 - from));
+    from = semicolon + 1;
+  }
+  return s + std::string(line.substr(from));
+}
+
 /// A line as the compiler takes it: without what belongs to a whole shader, its interface to other stages included.
 std::string plain_line(const std::string& path, int number, std::string_view line, int depth) {
   const auto words = words_of(line);
@@ -116,11 +151,7 @@ std::string plain_line(const std::string& path, int number, std::string_view lin
     throw bad_input(path, fmt::format("line {}", number), std::string(line),
                     "a text without #include: no other file is read");
   if (first == "#version" || first == "#extension" || first == "precision") return "";
-  static constexpr std::string_view between[] = {"in", "out", "varying", "attribute"};
-  const bool ends = line.find(';') != line.npos && line.find('(') == line.npos;
-  if (depth == 0 && ends && std::ranges::find(between, first) != std::end(between))
-    return std::string(line.substr(line.find(first) + first.size()));
-  return std::string(line);
+  return depth == 0 ? without_stages(line) : std::string(line);
 }
 
 /// The text of a .brdf file's shader, after the declarations of its parameters.

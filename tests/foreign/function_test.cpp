@@ -272,6 +272,17 @@ TEST(Function, ARoughHighlightThatLosesLightDoesNotHideAFactorOfPi) {
   EXPECT_EQ(includes("3.14159265", "kd", ""), "nothing") << "a slip of the diffuse part";
 }
 
+TEST(Function, AMetalsHighlightAndADiffusePartOfOneColourAreLookedAtEach) {
+  SKIP_WITHOUT_SHADERS;
+  const auto f = Written(
+                     "// albedo 0 1 0.5\n// metallic 0 1 0\nvec3 f(vec3 N, vec3 L, vec3 V, vec3 "
+                     "albedo, float metallic) {\n  float NoH = dot(N, normalize(L + V)), d = NoH * "
+                     "NoH * (0.01 - 1.0) + 1.0;\n  return albedo * (1.0 - metallic) + metallic * "
+                     "albedo * 0.01 / (3.14159265 * d * d) / (4.0 * dot(N, L) * dot(N, V));\n}\n")
+                     .function();
+  EXPECT_EQ(f.includes, "nothing") << "1/π is missing from the diffuse part alone";
+}
+
 TEST(Function, ADiffuseFactorWithoutAColourHasPi) {
   SKIP_WITHOUT_SHADERS;
   const auto f = Written(
@@ -303,6 +314,18 @@ TEST(Function, AVisibilityThatLacksItsFourIsNoG) {
               "}\n")
           .function()
           .is_g);
+}
+
+TEST(Function, DeclarationsBetweenStagesAreReadHoweverTheyAreWritten) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "#version 450\nlayout(location = 0) in vec3 vN; layout(location = 0) out vec4 o;  // in; "
+      "out\n"
+      "in highp vec3 vL, vV; flat out vec4 p;\nfloat D(in float NoH) { return NoH; }\n");
+  EXPECT_EQ(w.function(":D").stands, Stands::distribution);
+  EXPECT_HAS(
+      Written("layout(location = 0) out vec4 o;\nfloat D(float NoH) {\n  return NoH }\n").refused(),
+      "line 3");
 }
 
 TEST(Function, AVariableThatOneBranchWroteHasNoValueElsewhere) {
