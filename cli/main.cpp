@@ -98,9 +98,8 @@ int run(int argc, char** argv) {
   gonio::cli::add_manual(line);
   const auto action = line.parse(argc, argv);
   const gonio::Exit code = action ? action() : gonio::Exit::done;
-  if (argc > 1 && std::string_view(argv[1]) != "audit")  // whose own lines say it
-    for (const auto& guess : gonio::foreign_guesses())
-      std::fprintf(stderr, "gonio: %s\n", guess.c_str());
+  for (const auto& guess : gonio::take_foreign_guesses())
+    std::fprintf(stderr, "gonio: %s\n", guess.c_str());
   // A stream above it may have lost the error.
   if (std::fflush(stdout) != 0 || std::ferror(stdout) != 0)
     return fail_printing(errno != 0 ? errno : EIO);

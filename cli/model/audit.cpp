@@ -93,6 +93,7 @@ Exit run_file(const AuditCall& o) {
   progress("auditing " + o.ids[0]);
   const auto all = audit_file(read_as(o.ids[0], o.reading));
   progress.clear();
+  take_foreign_guesses();  // its own lines say them
   if (o.json) {
     fmt::print("{}", to_json(all));
   } else {

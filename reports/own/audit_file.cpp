@@ -163,8 +163,9 @@ std::string in_half(stability::Subject subject,
   for (const auto& [name, range] : domain)
     for (const auto& i : q.subject.inputs)
       if (lowered(i.name) == lowered(name)) stability::set_domain(q.subject, i.name, range);
+  constexpr double unbounded = 1e29;  // looked at where the laws are
   for (auto& i : q.subject.inputs)
-    if (i.domain.high > 1e29) return fmt::format("not looked at: {} has no bounds", i.name);
+    if (i.domain.high > unbounded) i.domain = {0.05, 1};
   q.boxes = 2000;
   q.proves = proves;
   return half_text(stability::answer(q), q.subject.decides);
@@ -336,6 +337,13 @@ FunctionAudit audit_function(FileFunction f) {
           a.reciprocity = FoundAt{off / size, at()};
       }
     }
+  if (role == Role::diffuse && a.not_finite == 0 && takes_both_cosines(*f.function)) {
+    const Row behind = auditing::row(100 * degree, 0, 30 * degree, 90 * degree);
+    const auto v = values_in(Number::double_, term, settings[0], std::span(&behind, 1));
+    if (!std::isfinite(v[0]))
+      a.to_check.emplace_back(
+          "a light behind the horizon has no value: right where the caller leaves such lights out");
+  }
   // Masking by one cosine is half of a product, which alone keeps the law.
   if (role == Role::masking && !takes_both_cosines(*f.function)) a.reciprocity.reset();
   if (role == Role::ndf)
@@ -350,7 +358,10 @@ FunctionAudit audit_function(FileFunction f) {
   }
   if (role == Role::diffuse) {
     a.model = nearest_model(term, a.no_model);
-    if (a.model) a.slips = likely_slips(*a.model), a.to_check = to_check(*a.model);
+    if (a.model) {
+      a.slips = likely_slips(*a.model);
+      std::ranges::copy(to_check(*a.model), std::back_inserter(a.to_check));
+    }
     energy_of_lobe(a, token, parameters);
   }
   // Light and view that graze from opposite sides leave no half vector: most shaders exclude it.
@@ -664,6 +675,33 @@ TermComparison compare_terms(const std::string& a,
   return *best;
 }
 
+namespace {
+
+/// Says which of a function's parameters stand for which of a model's, and what the others are.
+std::string pairs_of(const BoundModel& model,
+                     std::span<const Parameter> own,
+                     const auto& stands_for) {
+  std::vector<std::string> all, alone;
+  std::vector<bool> is_paired(own.size(), false);
+  for (const auto& q : model.model.parameters) {
+    std::string text = fmt::format("{} {:.4g}", q.name, model.values[q.first]);
+    for (std::size_t j = 0; j < own.size(); ++j)
+      if (stands_for(q.name, own[j])) {
+        is_paired[j] = true;
+        text = fmt::format("{} = {}", q.name,
+                           alpha_text(std::string(own[j].name),
+                                      q.name == "alpha" && is_rough(own[j].name) ? 2 : 1));
+      }
+    all.push_back(std::move(text));
+  }
+  for (std::size_t j = 0; j < own.size(); ++j)
+    if (!is_paired[j]) alone.emplace_back(own[j].name);
+  return fmt::format("{}{}", fmt::join(all, ", "),
+                     alone.empty() ? "" : fmt::format("; only yours: {}", fmt::join(alone, ", ")));
+}
+
+}  // namespace
+
 TermComparison compare_with_model(const std::string& own,
                                   const std::string& spec,
                                   const std::vector<std::pair<std::string, Range>>& domain) {
@@ -677,10 +715,11 @@ TermComparison compare_with_model(const std::string& own,
     return std::ranges::find(names, lowered(std::string(name))) != names.end();
   };
   const auto stands_for = [&](std::string_view ours, const Parameter& p) {
-    if (lowered(std::string(p.name)) == ours) return true;
+    if (lowered(std::string(stem_of(p.name))) == ours) return true;
     if (ours == "alpha") return width && &p == &entry.parameters[*width];
-    if (ours == "kd") return is_one_of(p.name, {"albedo", "diffuse", "basecolor", "base_color"});
-    return ours == "f0" && is_one_of(p.name, {"specular", "r0", "ks"});
+    const auto name = stem_of(p.name);
+    if (ours == "kd") return is_one_of(name, {"albedo", "diffuse", "basecolor", "base_color"});
+    return ours == "f0" && is_one_of(name, {"specular", "r0", "ks"});
   };
   TermComparison c;
   c.a = own, c.b = spec, c.measure = "f over its own value";
@@ -688,6 +727,7 @@ TermComparison compare_with_model(const std::string& own,
   const auto& rows = auditing::rows_of(Role::diffuse);
   Differences differences(c);
   BoundModel model = bind_model(spec, {}, 1);
+  c.pairs = pairs_of(model, entry.parameters, stands_for);
   for (std::size_t k = 0; k < places; ++k) {
     std::vector<double> p;
     for (const auto& w : entry.parameters) {
@@ -719,6 +759,7 @@ std::string to_json(const TermComparison& c) {
   Json document{{"a", c.a},
                 {"b", c.b},
                 {"read_as", c.read_as.empty() ? Json() : Json(c.read_as)},
+                {"parameters", c.pairs.empty() ? Json() : Json(c.pairs)},
                 {"measure", c.measure},
                 {"largest", c.largest},
                 {"at", c.at},
@@ -733,6 +774,7 @@ std::string to_json(const TermComparison& c) {
 std::string text_of(const TermComparison& c) {
   std::string s = fmt::format("{} beside {}{}\n", c.a, c.b,
                               c.read_as.empty() ? "" : fmt::format(", read as {}", c.read_as));
+  if (!c.pairs.empty()) s += fmt::format("  {:<14}{}\n", "parameters", c.pairs);
   s += c.largest < 1e-12 ? fmt::format("  {:<14}none, in {}\n", "difference", c.measure)
                          : fmt::format("  {:<14}{:.4g} at most, RMS {:.3g}, in {}; at {}\n",
                                        "difference", c.largest, c.rms, c.measure, c.at);

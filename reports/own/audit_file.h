@@ -50,6 +50,7 @@ std::string text_of(const FunctionAudit&);
 /// A file's function beside a form of the catalogue, or beside another file's.
 struct TermComparison {
   std::string a, b, read_as;  ///< read_as: what was tried and taken, of a masking term G or V
+  std::string pairs;          ///< which parameters stand for which, of whole models
   double largest = 0, rms = 0;
   std::string measure, at;
   std::size_t operations_a = 0, operations_b = 0;

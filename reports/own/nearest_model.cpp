@@ -44,6 +44,17 @@ constexpr std::array<Disguise, 4> disguises{{
      "its highlight has the cosine NoL in it, which its diffuse part has not"},
 }};
 
+/// What a shader does with its half vector.
+struct HalfVector {
+  double scale;  ///< its length over |h · l|; 0: it is of length 1
+  const char* slip;
+};
+constexpr std::array<HalfVector, 3> half_vectors{{
+    {0, ""},
+    {1, "its half vector is not normalised: it is (L + V)/2"},
+    {2, "its half vector is not normalised: it is L + V"},
+}};
+
 /// Light and view mirrored at 30°: D and V are at their peaks, nearly.
 const Row& mirrored() {
   static const Row row = auditing::row(30 * degree, 0, 30 * degree, std::numbers::pi);
@@ -60,8 +71,8 @@ struct Form {
 /// A whole function with the parameters that make its parts, and the search for the model that it is.
 class Search {
  public:
-  Search(std::size_t term, std::size_t width, const PartColours& colours)
-      : term_(term), own_(catalogue()[term]), width_(width), colours_(colours) {
+  Search(std::size_t term, std::size_t width, const PartColours& colours, const HalfVector& half)
+      : term_(term), own_(catalogue()[term]), width_(width), colours_(colours), half_(half) {
     // Away from the horizon: shaders add to a denominator there.
     constexpr double least_cosine = 0.3;
     for (const auto& r : auditing::rows_of(Role::diffuse))
@@ -102,9 +113,23 @@ class Search {
     p[width_] = widths_[0];
     return values_in(Number::double_, term_, p, rows_);
   }
-  static Values values_of(std::size_t form, double alpha, std::span<const Row> rows) {
+  /// Rows as a distribution and a Fresnel term of the shader's half vector have them.
+  std::vector<Row> as_taken(std::span<const Row> rows) const {
+    std::vector<Row> all(rows.begin(), rows.end());
+    for (auto& r : all) {
+      if (half_.scale == 0) break;
+      const double length = half_.scale * r.voh;
+      r.noh = std::min(r.noh * length, 1.0);
+      r.voh = std::min(r.voh * length, 1.0);
+      r.sin2_theta_h = 1 - r.noh * r.noh;
+    }
+    return all;
+  }
+  Values values_of(std::size_t form, double alpha, std::span<const Row> rows) const {
     const Values p(catalogue()[form].parameters.size(), alpha);
-    return values_in(Number::double_, form, p, rows);
+    return catalogue()[form].role() == Role::masking
+               ? values_in(Number::double_, form, p, rows)
+               : values_in(Number::double_, form, p, as_taken(rows));
   }
   /// Values of each form of a role, from the widest as far as alpha is one of the form's.
   std::vector<Form> forms(Role role, double power) const {
@@ -168,6 +193,7 @@ class Search {
       const Form& d, double d_power, const Form& v, double v_power, double factor) const {
     NearestModel n{"", std::string(own_.parameters[width_].name), d_power, v_power, factor};
     n.disguise = disguise_->slip;
+    n.half_vector = half_.slip;
     const auto over_form = [&](const Values& f, double width, std::span<const Row> rows) {
       const auto x = values_of(d.term, alpha_of(width, d_power), rows),
                  y = values_of(v.term, alpha_of(width, v_power), rows);
@@ -216,6 +242,7 @@ class Search {
     auto f = over_form(highlight(f0, widths_[0], rows_), widths_[0], rows_);
     const bool is_of_f = disguise_ == &disguises[1];
     for (std::size_t i = 0; i < f.size() && !is_of_f; ++i) f[i] /= disguise_->factor(rows_[i]);
+    const auto taken = as_taken(rows_);
     const auto is = [&](auto value) {
       for (std::size_t i = 0; i < f.size(); ++i)
         if (!(std::abs(f[i] - value(i)) < 2e-3)) return false;
@@ -229,10 +256,10 @@ class Search {
       Values p;
       for (const auto& q : e.parameters) p.push_back(q.start);
       p[0] = f0;
-      const auto values = values_in(Number::double_, form, p, rows_);
+      const auto values = values_in(Number::double_, form, p, taken);
       if (is([&](std::size_t i) { return values[i]; })) return form;
     }
-    n.fresnel_slip = fresnel_slip(f0, rows_, f, true);
+    n.fresnel_slip = fresnel_slip(f0, taken, f, true);
     n.other_fresnel = n.fresnel_slip.empty();
     return {};
   }
@@ -267,6 +294,7 @@ class Search {
   const TermEntry& own_;
   std::size_t width_;
   PartColours colours_;
+  HalfVector half_;
   std::vector<Row> rows_, grazing_;
   std::vector<double> widths_;
   std::vector<Scaled> scaled_;
@@ -290,7 +318,9 @@ std::optional<NearestModel> nearest_model(std::size_t term, std::string& why) {
     why = "no parameter is F0 by its name, as f0, specularColor, or albedo beside metallic";
     return {};
   }
-  auto n = Search(term, *width, *colours).found();
+  std::optional<NearestModel> n;
+  for (const auto& half : half_vectors)
+    if (!n) n = Search(term, *width, *colours, half).found();
   if (!n)
     why = fmt::format("no D and V of ours make its highlight at any power of {}",
                       own.parameters[*width].name);
@@ -302,6 +332,7 @@ std::vector<std::string> likely_slips(const NearestModel& n) {
   if (std::abs(n.factor - 1) > same_within)
     all.push_back("its highlight is " + factor_text(n.factor));
   if (!n.disguise.empty()) all.push_back(n.disguise);
+  if (!n.half_vector.empty()) all.push_back(n.half_vector);
   if (n.diffuse_factor != 1) all.push_back("its diffuse part is " + factor_text(n.diffuse_factor));
   if (n.power != n.masking_power)
     all.push_back(fmt::format("alpha is {} in D and {} in V: expected one alpha for both",

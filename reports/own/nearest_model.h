@@ -25,6 +25,7 @@ struct NearestModel {
   bool other_fresnel = false;  ///< F is that of none of ours
   std::string disguise;        ///< what its highlight is multiplied with, a sentence
   std::string fresnel_slip;    ///< a sentence
+  std::string half_vector;     ///< a sentence
   std::optional<Bite> bite;
   std::string horizon;  ///< a guard that holds it down there, a sentence
 };

@@ -355,6 +355,37 @@ TEST(AuditFile, ADistributionWithoutAValueAtTheHorizonIsKnown) {
   EXPECT_EQ(slips(a), "");
 }
 
+TEST(AuditFile, AHalfVectorThatIsNotNormalisedIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto a = audited(replaced(tutorial("4.0"), "normalize(L + V)", "(L + V) * 0.5"));
+  ASSERT_TRUE(a.model) << a.no_model;
+  EXPECT_HAS(slips(a), "its half vector is not normalised: it is (L + V)/2");
+}
+
+TEST(AuditFile, ALightBehindTheHorizonIsAsked) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& below) {
+    const auto a = audited(
+        "// f0 0 1 0.04\nfloat f(vec3 L, vec3 V, vec3 N, float f0) {\n  float NoL = "
+        "max(dot(N, L), 0.0), NoV = max(dot(N, V), 0.0);\n  return f0 * NoL * NoV / (4.0 * "
+        "NoL * NoV" +
+        below + ");\n}\n");
+    return text_of(a);
+  };
+  EXPECT_HAS(of(""), "check           a light behind the horizon has no value");
+  EXPECT_EQ(of(" + 1e-5").find("behind the horizon"), std::string::npos);
+}
+
+TEST(AuditFile, HalfIsLookedAtWhereTheLawsAreIfThereAreNoBounds) {
+  SKIP_WITHOUT_SHADERS;
+  const auto a = audited(
+      "float D(float NoH, float a2) {\n  float d = NoH * NoH * (a2 - 1.0) + 1.0;\n  return a2 / "
+      "(3.14159265 * d * d);\n}\n");
+  EXPECT_HAS(a.half, "finite for every input");
+  ASSERT_EQ(a.not_looked_at.size(), 1U);
+  EXPECT_HAS(a.not_looked_at[0], "a2 beyond 0.05 to 1");
+}
+
 TEST(AuditFile, WhyNoneOfOursIsBesideAModelIsSaid) {
   SKIP_WITHOUT_SHADERS;
   const auto none =
@@ -496,6 +527,15 @@ TEST(CompareTerms, AWholeModelIsComparedWithOurs) {
   const auto c = compare_with_model(path, "lambert+ggx/smith_ggx.separable/schlick", {});
   EXPECT_LT(c.largest, 1e-6) << c.at;
   EXPECT_GT(c.operations_b, 20U);
+  EXPECT_HAS(text_of(c), "kd = albedo, alpha = roughness², f0 = f0\n");
+  const auto metal =
+      folder.write("m.glsl", replaced(tutorial("4.0"), "vec3 f0, vec3 albedo)",
+                                      "vec3 f0, float Metallic, vec3 BaseColor)\n#define albedo "
+                                      "(BaseColor * (1.0 - Metallic))\n"));
+  EXPECT_HAS(compare_with_model(metal + ":brdf{Metallic=0,1,0;BaseColor=0,1,0.5}",
+                                "lambert+ggx/smith_ggx.separable/schlick", {})
+                 .pairs,
+             "kd = BaseColor, alpha = roughness², f0 = f0; only yours: Metallic");
 }
 
 TEST(AuditFile, AClampIsFoundWithTheRoughnessBelowWhichItBites) {

@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <mutex>
+#include <utility>
 
 #include "base/error.h"
 #include "brdf/catalogue/registry_parts.h"
@@ -23,6 +24,7 @@ struct Kept {
   About about;
   std::vector<Parameter> parameters;
   std::size_t first = 0;  ///< its first term
+  bool is_said = false;   ///< what was guessed of it
 };
 
 std::mutex foreign_mutex;
@@ -105,11 +107,12 @@ bool is_foreign(std::string_view name) {
   return foreign::is_name(name);
 }
 
-std::vector<std::string> foreign_guesses() {
+std::vector<std::string> take_foreign_guesses() {
   const std::lock_guard lock(foreign_mutex);
   std::vector<std::string> all;
-  for (const auto& k : kept()) {
+  for (auto& k : kept()) {
     const auto& f = k.function;
+    if (std::exchange(k.is_said, true)) continue;
     if (!f.guessed || (!f.unclear && (f.includes == "nothing" || f.includes == "v"))) continue;
     all.push_back(
         f.unclear

@@ -39,8 +39,8 @@ const ForeignTerm* foreign_term(std::size_t term);
 std::size_t term_of_channel(std::size_t term, std::size_t channel);
 /// A function as a term in a role, read where it was not yet.  \throws Error  as read_function(), or wrong usage of more than 96
 std::size_t foreign_term_named(std::string_view name, std::optional<Role> role = {});
-/// What was guessed of the functions named so far, where it changes values or is not clear: a sentence each.
-std::vector<std::string> foreign_guesses();
+/// Takes what was guessed of the functions named since the last call, where it changes values or is not clear: a sentence each.
+std::vector<std::string> take_foreign_guesses();
 /// True where an id or a part of a spec names a function of a file.
 bool is_foreign(std::string_view name);
 
