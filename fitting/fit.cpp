@@ -81,8 +81,9 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
 }
 
 /// Takes a fit of the diffuse terms without the lobes, and its residuals: of lobes that are not known neither those beside them nor
-/// their highlights say anything.  False where the cost and the residuals stay those of the model with its lobes.
-bool take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColumns& columns) {
+/// their highlights say anything.  False where the cost, the residuals and the model stay those with the lobes.
+bool take_diffuse_alone(
+    FitDocument& d, BoundModel& fitted, const Table& t, FitOptions o, SharedColumns& columns) {
   const auto diffuse = parse_model(d.model).diffuse;
   if (diffuse.empty() || catalogue()[find_term(diffuse, Role::diffuse)].coupled ||
       find_preset(diffuse))  // as "disney", which alone is the name of a whole model
@@ -93,7 +94,8 @@ bool take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColu
   o.bin_sensitivity = false;
   o.certificate = Certify::none;
   o.scale = Scale::held;  // the table is at its working scale
-  FitDocument alone = fit(t, o, columns).document;
+  FitResult of_diffuse = fit(t, o, columns);
+  FitDocument& alone = of_diffuse.document;
   for (auto& p : alone.parameters) {
     FittedParameter& beside = *std::ranges::find(d.parameters, p.name, &FittedParameter::name);
     for (std::size_t c = 0; c < p.value.size(); ++c) {
@@ -104,11 +106,15 @@ bool take_diffuse_alone(FitDocument& d, const Table& t, FitOptions o, SharedColu
     }
     beside = std::move(p);
   }
+  d.free_names = std::move(alone.free_names);
+  d.correlations = std::move(alone.correlations);
+  d.condition = alone.condition;
   if (holds_lobe) return false;  // what it costs to hold it is what was asked
   d.cost = alone.cost;
   d.residuals = std::move(alone.residuals);
   d.misfit = std::move(alone.misfit);
   d.physics = std::move(alone.physics);
+  fitted = std::move(of_diffuse.model);
   return true;
 }
 
@@ -276,7 +282,7 @@ FitResult fit_and_judge(const Table& t,
   d.misfit = lack.misfit;
   d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");
-  const bool without_lobes = needless && take_diffuse_alone(d, t, o, columns);
+  const bool without_lobes = needless && take_diffuse_alone(d, found.best.model, t, o, columns);
   if (t.aperture)
     d.aperture_deg = std::vector{t.aperture.light / degree, t.aperture.detector / degree};
   d.values_used = a.counts.used;

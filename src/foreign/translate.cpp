@@ -16,7 +16,8 @@ namespace gonio::foreign {
 namespace {
 
 constexpr int most_turns = 4096, deepest_calls = 64, deepest_logic = 64;
-constexpr std::size_t most_variables = 100'000, most_steps = 4'000'000, most_looks = 4000;
+constexpr std::size_t most_variables = 100'000, most_scalars = 1'000'000, most_steps = 4'000'000,
+                      most_looks = 4000;
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// A variable's scalars: what all lanes hold, and what was stored last, which the lanes of `where` see without a select.
@@ -103,7 +104,7 @@ class Translator {
   std::map<Id, Value> globals_;
   std::vector<Variable> variables_;
   std::vector<Note> notes_;
-  std::size_t steps_ = 0, looks_ = 0;
+  std::size_t steps_ = 0, looks_ = 0, scalars_ = 0;
 
   // ---- values and variables
   // -----------------------------------------------------------------------
@@ -120,6 +121,8 @@ class Translator {
     const Ref stored = parts.empty() ? p.truth(false) : p.truth(true);
     if (parts.empty()) parts.assign(m.size(type), nothing);
     const std::size_t n = parts.size();
+    if (n > most_scalars - scalars_) p.refuse("variables of more than 1000000 numbers");
+    scalars_ += n;
     variables_.push_back(
         {parts, parts, std::vector<Ref>(n, p.truth(true)), std::vector<Ref>(n, stored), depth});
     return static_cast<int>(variables_.size() - 1);

@@ -141,7 +141,16 @@ std::size_t expect_sound_exr(const std::string& path) {
     if (!fills(type, value))
       throw refuse(name, fmt::format("{} of {} bytes", type, size), "a value of its size");
     // OpenEXR goes by the name: others of these types are for whoever wrote them.
-    if (name == "channels" && type == "chlist") channels = value.size() / 18;
+    if (name == "channels" && type == "chlist") {
+      constexpr std::size_t behind_its_name = 17;
+      channels = 0;
+      for (std::size_t at = 0; at < value.size() && value[at] != '\0'; ++channels)
+        at = value.find('\0', at) + behind_its_name;
+      constexpr std::size_t most_channels = 4096;
+      if (channels > most_channels)
+        throw refuse(name, fmt::format("{} channels", channels),
+                     fmt::format("at most {}", most_channels));
+    }
     if (name == "compression" && type == "compression")
       rows = packed_rows(static_cast<Imf::Compression>(value[0]));
     for (std::size_t k = 0; k < 2; ++k) {
@@ -177,8 +186,12 @@ std::size_t expect_sound_exr(const std::string& path) {
     Imf::Header::setMaxTileSize(longest, longest);
     return true;
   }();
-  constexpr std::size_t of_an_attribute = 1024, copies = 4;  // as OpenEXR keeps them
-  return of_an_attribute * seen.size() + copies * header;
+  // As OpenEXR keeps them: each header a few times, each text and each name in room of its own, and
+  // the place of each tile.
+  constexpr std::size_t of_an_attribute = 1024, of_a_channel = 1024, copies = 16;
+  const std::size_t tiles =
+      tile[0] > 0 ? ((image[0] - 1) / tile[0] + 1) * ((image[1] - 1) / tile[1] + 1) : 0;
+  return of_an_attribute * seen.size() + of_a_channel * channels + copies * header + copies * tiles;
 }
 
 std::vector<half> in_half(const std::string& path, std::span<const float> values) {

@@ -302,6 +302,13 @@ TEST(Exr, RefusesHeadersThatFillTheMemory) {
                     .add("t", "string", std::string(n, 't'))
                     .add_rest());
   };
+  const auto with_channels = [&](int n) {
+    std::string list;
+    for (int k = 0; k < n; ++k) list += "c" + std::to_string(k) + '\0' + one_channel.substr(2, 16);
+    return line(ExrHeader().add("channels", "chlist", list + '\0').add_rest());
+  };
+  EXPECT_EQ(with_channels(4000), "");
+  EXPECT_HAS(with_channels(5000), "attribute channels: found 5000 channels");
   EXPECT_EQ(with_text(4'000'000), "");
   EXPECT_HAS(with_text(5'000'000),
              "attribute t: found 5000000 bytes, expected a header of at most");

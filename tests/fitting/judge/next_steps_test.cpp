@@ -226,6 +226,7 @@ TEST(NextSteps, OfANeedlessLobeNameDiffuseTermsWithoutIt) {
   const auto alone = quick_fit(t, "lambert");
   EXPECT_EQ(d.residuals.log_rms, alone.residuals.log_rms);
   EXPECT_EQ(d.misfit.size, alone.misfit.size);
+  EXPECT_EQ(d.free_names, alone.free_names) << "whose correlations are shown";
   EXPECT_FALSE(d.certificate);
   const auto models = given(d, "--model");
   ASSERT_NE(std::ranges::find(models, "eon"), models.end());
