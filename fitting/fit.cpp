@@ -81,13 +81,15 @@ void forget_unknown(BinSensitivity& s, const FitDocument& d) {
 }
 
 /// Takes a fit of the diffuse terms without the lobes, and its residuals: of lobes that are not known neither those beside them nor
-/// their highlights say anything.  False where the cost, the residuals and the model stay those with the lobes.
-bool take_diffuse_alone(
-    FitDocument& d, BoundModel& fitted, const Table& t, FitOptions o, SharedColumns& columns) {
+/// their highlights say anything.  Returns its model; none where the cost and the residuals stay those of the model with its lobes.
+std::optional<BoundModel> take_diffuse_alone(FitDocument& d,
+                                             const Table& t,
+                                             FitOptions o,
+                                             SharedColumns& columns) {
   const auto diffuse = parse_model(d.model).diffuse;
   if (diffuse.empty() || catalogue()[find_term(diffuse, Role::diffuse)].coupled ||
       find_preset(diffuse))  // as "disney", which alone is the name of a whole model
-    return false;
+    return {};
   const std::size_t fixed = o.fixed.size();
   o = options_for(std::move(o), diffuse);
   const bool holds_lobe = o.fixed.size() < fixed;
@@ -109,13 +111,12 @@ bool take_diffuse_alone(
   d.free_names = std::move(alone.free_names);
   d.correlations = std::move(alone.correlations);
   d.condition = alone.condition;
-  if (holds_lobe) return false;  // what it costs to hold it is what was asked
+  if (holds_lobe) return {};  // what it costs to hold it is what was asked
   d.cost = alone.cost;
   d.residuals = std::move(alone.residuals);
   d.misfit = std::move(alone.misfit);
   d.physics = std::move(alone.physics);
-  fitted = std::move(of_diffuse.model);
-  return true;
+  return std::move(of_diffuse.model);
 }
 
 /// Worth of the parameters, by values or by clusters of an incident angle.
@@ -253,7 +254,7 @@ FitResult fit_and_judge(const Table& t,
   widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
   const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u);
-  keep_to_what_is_seen(table, p, f.model.values, !lack.misfit.reproduces(), u);
+  keep_to_what_is_seen(table, p, f.model.values, lack.misfit, u);
   watch.lap("limits_ms");
   for (std::size_t i = 0; i < in_order.size(); ++i)
     if (u[i].reason.empty()) u[i].reason = in_order[i];
@@ -280,9 +281,10 @@ FitResult fit_and_judge(const Table& t,
   if (beside) d.residuals.chi2_per_freedom = beside->chi2_per_freedom;
   d.uncertainty = t.errors.empty() ? "none" : "stated";
   d.misfit = lack.misfit;
+  if (lack.outliers) d.misfit.outliers = lack.outliers->values;
   d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");
-  const bool without_lobes = needless && take_diffuse_alone(d, found.best.model, t, o, columns);
+  auto without_lobes = needless ? take_diffuse_alone(d, t, o, columns) : std::nullopt;
   if (t.aperture)
     d.aperture_deg = std::vector{t.aperture.light / degree, t.aperture.detector / degree};
   d.values_used = a.counts.used;
@@ -338,7 +340,7 @@ FitResult fit_and_judge(const Table& t,
       return std::nan("");
     }
   });
-  return {std::move(d), std::move(found.best.model)};
+  return {std::move(d), std::move(found.best.model), std::move(without_lobes)};
 }
 
 /// Fit of a table that is known up to one factor.
@@ -358,6 +360,7 @@ FitResult fit_free_scale(const Table& t,
       continue;
     }
     leave_scale_open(result.document, result.model, factor);
+    result.without_lobes.reset();  // which is of the working scale
     return result;
   }
 }

@@ -3,6 +3,7 @@
 /// The fit: a table and a model in, parameters and how well they are known out.
 
 #include <functional>
+#include <optional>
 
 #include "brdf/model/model.h"
 #include "fitting/result/document.h"
@@ -15,6 +16,11 @@ namespace gonio {
 struct FitResult {
   FitDocument document;
   BoundModel model;  ///< with the fitted values, also of parameters that are not identifiable
+  /// That of the diffuse terms alone, where nothing is known of the lobes and the document's numbers are its.
+  std::optional<BoundModel> without_lobes = {};
+
+  /// What the document's numbers are of.
+  const BoundModel& drawn() const { return without_lobes ? *without_lobes : model; }
 };
 
 /// Throws wrong usage for options that no table could be fitted with.

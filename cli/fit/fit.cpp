@@ -161,7 +161,7 @@ Exit run_batch(const FitCall& o) {
   if (o.pages)
     hooks.table_page = [](const FittedFile& f) {
       return fit_page_html(f.result.document, f.table, inspect(f.table),
-                           make_fit_page(f.table, f.result.model));
+                           make_fit_page(f.table, f.result.drawn()));
     };
   std::optional<Part> part;
   if (o.part) part = part_from(*o.part, variable_of_environment);
@@ -284,7 +284,7 @@ Exit run(const FitCall& call) {
   if (out.has_page()) {
     progress("making the page");
     const Health health = inspect(t);
-    const FitPage page = make_fit_page(t, result.model);
+    const FitPage page = make_fit_page(t, result.drawn());
     out.write_page(fit_page_html(d, t, health, page, o.output),
                    to_json(page, json, to_json(t, health)));
   }

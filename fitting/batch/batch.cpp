@@ -188,7 +188,7 @@ Fitted fitted(const Batch& b,
               const std::string& made) {
   const FittedFile f = fit_files({table}, b.how);
   const FitDocument& d = f.result.document;
-  std::string document = batch_document(d, make_preview(f.table, f.result.model), made);
+  std::string document = batch_document(d, make_preview(f.table, f.result.drawn()), made);
   BatchRow row = parse_document(to.path, document)->row;
   row.path = table;
   row.document = to.name;

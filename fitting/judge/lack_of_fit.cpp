@@ -205,7 +205,13 @@ Tests test(const Left& left, bool measured, bool by_angle) {
   Tests t;
   const auto add = [&](const std::vector<SharedAngle>& gains,
                        std::optional<SharedAngle> clustered) {
+    const bool is_first = t.all.empty();
     t.all.push_back({regress(left, gains, clustered), clustered.has_value()});
+    // A width that depends on the channel leaves residuals that cancel over the channels.
+    constexpr std::size_t most_apart = 4;
+    if (is_first && left.unknowns.size() > 1 && left.unknowns.size() <= most_apart)
+      for (std::size_t c = 0; c < left.unknowns.size(); ++c)
+        t.all.push_back({regress(left, gains, clustered, false, c), clustered.has_value()});
   };
   if (!measured) return add({}, {}), t;
   const auto incident = number_of_angles(left, SharedAngle::incident);
@@ -295,7 +301,7 @@ LackOfFit lack_of_fit(
       test(left, by_angle || (!s.table().truth && p.options.intervals != Intervals::independent),
            by_angle);
   const Regression& first = tests.all[0].regression;
-  if (first.rounded && tests.all.size() == 1) {
+  if (std::ranges::all_of(tests.all, [](const auto& t) { return t.regression.rounded; })) {
     m.note = "what is left is no more than the values' own rounding";
     return found;
   }

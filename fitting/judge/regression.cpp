@@ -349,7 +349,8 @@ bool has_room(const Left& left, SharedAngle axis) {
 Regression regress(const Left& found,
                    const std::vector<SharedAngle>& gains,
                    std::optional<SharedAngle> clustered,
-                   bool only_scatter) {
+                   bool only_scatter,
+                   std::optional<std::size_t> apart) {
   Regression out;
   std::optional<Left> settled;
   if (!gains.empty() && found.robust) settle(settled.emplace(found), gains);
@@ -389,9 +390,12 @@ Regression regress(const Left& found,
   for (std::size_t i = 0; i < r.size(); ++i) {
     const auto& v = left.values[i];
     const auto& own = left.units[v.unit].functions;
-    const double whole = v.change * v.change / v.variance;
+    const double side = !apart                ? 1
+                        : v.channel == *apart ? 1
+                                              : -1 / static_cast<double>(left.unknowns.size() - 1);
+    const double whole = v.change * v.change / v.variance * side * side;
     for (std::size_t k = 0; k < width; ++k) {
-      functions[k][i] = v.change / v.variance * own[k];
+      functions[k][i] = v.change / v.variance * own[k] * side;
       length[index(k)] += whole * own[k] * own[k];
     }
     weight += v.active * whole;

@@ -38,11 +38,14 @@ bool has_room(const Left&, SharedAngle);
 /// \param gains      axes whose angles each have a scale of their own, for each channel, which is left open
 /// \param clustered  axis whose angles share errors of any kind: only sums over an angle say something
 /// \param only_scatter  finds what is left and its freedom, and tests nothing
+/// \param apart      channel whose residuals follow the functions otherwise than those of the others, as a width that depends on the
+///                   channel makes them; none: all follow them alike
 /// The variances are found before.
 Regression regress(const Left&,
                    const std::vector<SharedAngle>& gains = {},
                    std::optional<SharedAngle> clustered = {},
-                   bool only_scatter = false);
+                   bool only_scatter = false,
+                   std::optional<std::size_t> apart = {});
 
 /// Probability that scales of angles scatter so by chance.
 /// \param open  the same regression with the scales open

@@ -28,7 +28,7 @@ void forget_empty_channels(const Table& t, const Problem& p, Uncertainty& u) {
 void keep_to_highlights(TableFacts& facts,
                         const Problem& p,
                         std::span<const double> values,
-                        bool misses,
+                        const Misfit& misfit,
                         Uncertainty& u) {
   const Table& t = facts.table();
   if (p.start.model.lobes.empty()) return;
@@ -36,7 +36,7 @@ void keep_to_highlights(TableFacts& facts,
     forget_lobes(p, u, Lobes::whole, "each incident angle holds one constant: a computed table");
     return;
   }
-  if (const auto retro = misses ? facts.retro() : std::nullopt) {
+  if (const auto retro = !misfit.reproduces() ? facts.retro() : std::nullopt) {
     forget_lobes(p, u, Lobes::fresnel,
                  fmt::format("the larger highlight ({:.3g} 1/sr) is at wo = wi, and none of it is "
                              "this lobe's",
@@ -65,8 +65,10 @@ void keep_to_highlights(TableFacts& facts,
   }
   const auto peak = facts.peak().peak;
   if (!peak || peak->resolved) return;
-  u[i].keep_limit(upper_limit, peak->alpha,
-                  value > peak->alpha
+  // A width that meets the samples about the peak, too, is not wider than it.
+  const double met = misfit.told ? 0 : std::fmax(value, u[i].high_end(value));
+  u[i].keep_limit(upper_limit, std::max(peak->alpha, met),
+                  misfit.told && value > peak->alpha
                       ? fmt::format("the fitted alpha, {:.3g}, is wider than the highlight of the "
                                     "table: the model does not meet it",
                                     value)
@@ -90,10 +92,10 @@ void forget_least_widths(const Problem& p, std::span<const double> values, Uncer
 void keep_to_what_is_seen(TableFacts& facts,
                           const Problem& p,
                           std::span<const double> values,
-                          bool misses,
+                          const Misfit& misfit,
                           Uncertainty& u) {
   forget_empty_channels(facts.table(), p, u);
-  keep_to_highlights(facts, p, values, misses, u);
+  keep_to_highlights(facts, p, values, misfit, u);
   forget_least_widths(p, values, u);
 }
 

@@ -18,8 +18,11 @@ inline constexpr const char* no_value_of_channel = "no value of its channel can 
 ///   the other alone;
 ///   the width of a measured highlight that the samples do not resolve, which has an upper limit;
 ///   a width at the low end of all there are.
-/// \param values  of all slots, fitted   \param misses  whether the model does not reproduce the table
-void keep_to_what_is_seen(
-    TableFacts&, const Problem&, std::span<const double> values, bool misses, Uncertainty&);
+/// \param values  of all slots, fitted   \param misfit  of these
+void keep_to_what_is_seen(TableFacts&,
+                          const Problem&,
+                          std::span<const double> values,
+                          const Misfit& misfit,
+                          Uncertainty&);
 
 }  // namespace gonio

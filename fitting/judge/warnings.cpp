@@ -14,6 +14,7 @@ namespace gonio {
 
 std::string typical_factor(double log_rms) {
   const double x = std::exp(log_rms), above = x - 1;
+  if (x > 1e5) return fmt::format("{:.1e}", x);
   return fmt::format("{:.{}f}", x,
                      x > 9.95        ? 0
                      : above >= 1    ? 1
@@ -59,11 +60,37 @@ double telling_bias(const FitOptions& o, const FitDocument& d) {
 
 }  // namespace
 
+namespace {
+/// Greatest noise of ln f of a band of values; 0 where it is not known.
+double greatest_noise(const Noise& n) {
+  double most = 0;
+  if (!n.bound)
+    for (const auto& band : n.over_value) most = std::max(most, band.sigma);
+  return most;
+}
+
+/// By how much less the mean logarithm of the noisiest values is than that of their mean; 0 where it is little beside the intervals
+/// of the diffuse terms, which such values determine.
+double dark_bias(const FitOptions& o, const FitDocument& d, TableFacts& table) {
+  if (o.metric != Metric::log || o.robust || table.table().truth) return 0;
+  const double sigma = greatest_noise(table.noise()), bias = sigma * sigma / 2;
+  constexpr double least = 0.01, little = 0.5;  // of a value, of half an interval
+  if (!(bias > least)) return 0;
+  for (const auto& p : d.parameters)
+    if (p.name.starts_with("kd"))
+      for (std::size_t c = 0; c < p.value.size(); ++c)
+        if (bias * std::abs(p.value[c]) > little * (p.ci95_high[c] - p.ci95_low[c]) / 2)
+          return bias;
+  return 0;
+}
+}  // namespace
+
 FitFacts with_table(FitFacts f, const FitOptions& o, TableFacts& table, const FitDocument& d) {
   const Table& t = table.table();
   f.few_angles = !t.truth && o.intervals != Intervals::independent && !enough_angles(f.angles);
   f.copies = !copies_in_words(t).empty();
   f.offset = table.negative_offset() > 0;
+  f.dark_bias = dark_bias(o, d, table);
   if (!d.misfit.reproduces()) f.retro = table.retro();
   // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
   const auto narrow = [](const FittedParameter& p) {
@@ -84,10 +111,10 @@ std::vector<std::string> warnings(const FitOptions& o,
   std::vector<std::string> all;
   if (const auto& alone = f.outliers) {
     all.push_back(fmt::format(
-        "about {} ({}) are outliers, typically a factor of {} off those around them; the fit "
-        "follows them",
-        counted(alone->values, "value"), percent(alone->share),
-        typical_factor(std::log(alone->typical))));
+        "about {} ({}) {} off those around {}, typically by a factor of {}: outliers, which the "
+        "fit follows",
+        counted(alone->values, "value"), percent(alone->share), alone->values == 1 ? "is" : "are",
+        alone->values == 1 ? "it" : "them", typical_factor(std::log(alone->typical))));
     const auto [l, v] = SampleAngles(t).directions(alone->farthest);
     all.push_back(fmt::format("the farthest outlier is at theta_i {:.3g}°, theta_o {:.3g}°",
                               std::acos(std::clamp(l.z, -1.0, 1.0)) / degree,
@@ -137,7 +164,12 @@ std::vector<std::string> warnings(const FitOptions& o,
         fmt::format("relative errors shift values by about {}, more than intervals allow for: "
                     "--metric log does not",
                     percent(bias)));
-  if (d.log_offset > 0 && !f.offset)
+  if (f.dark_bias > 0)
+    all.push_back(fmt::format(
+        "noise lowers the logarithms of the darkest values by about {}, and kd with them: "
+        "--metric l2_cosine minds it less",
+        percent(f.dark_bias)));
+  else if (d.log_offset > 0 && !f.offset)
     all.push_back(fmt::format(
         "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
         "to dark places",

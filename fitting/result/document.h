@@ -105,8 +105,9 @@ struct Misfit {
   bool told = false;                 ///< whether it is significant and large enough to matter
   std::vector<std::string> follows;  ///< "theta_h", "theta_d", "grazing angles": the most of it
   std::optional<MisfitCell> worst_cell;
-  std::string note;      ///< why it was not tested
-  bool too_few = false;  ///< whether values or angles are too few to tell
+  std::string note;          ///< why it was not tested
+  bool too_few = false;      ///< whether values or angles are too few to tell
+  std::size_t outliers = 0;  ///< number of values that lie alone
   /// True where nothing is left but noise, or the values' own rounding.
   bool reproduces() const { return !told && !too_few; }
 };

@@ -106,7 +106,9 @@ inline constexpr auto description<Misfit> = FieldList{
     Field{"follows", &Misfit::follows, "angles that most of it follows"},
     Field{"worst_cell", &Misfit::worst_cell, "cell of the residual map that is furthest off"},
     Field{"note", &Misfit::note, "why it was not tested"},
-    Field{"too_few", &Misfit::too_few, "whether values or angles are too few to tell"}};
+    Field{"too_few", &Misfit::too_few, "whether values or angles are too few to tell"},
+    Field{"outliers", &Misfit::outliers,
+          "number of values that lie alone, far from those around them"}};
 
 template <>
 inline constexpr auto description<Physics> = FieldList{

@@ -317,17 +317,21 @@ std::string fit_page_html(const FitDocument& d,
   const double log_rms = d.residuals.log_rms;
   std::size_t all_values = d.values_used;  // with those that a mask took out of the table
   for (const auto& [why, n] : d.masked) all_values += n;
-  const char* const does = d.misfit.told      ? "misses"
-                           : d.misfit.too_few ? "may fit (too few to tell)"
-                                              : "reproduces";
+  const char* const does = d.misfit.told           ? "misses"
+                           : d.misfit.too_few      ? "may fit (too few to tell)"
+                           : d.misfit.outliers > 0 ? "follows outliers among"
+                                                   : "reproduces";
   Pictures pictures;
   Page out{"", "fit", d.input_path,
            fmt::format("{} {} {}", model_names(std::array{d.model})[0],
                        d.misfit.told ? "does not fit" : "fitted to", file)};
   out.first.emplace_back(
-      Prose{fmt::format("`{}` {} the {} values used of `{}` {} a typical factor of **{}** (log RMS "
+      Prose{fmt::format("`{}` {} the {} values used of `{}`{} a typical factor of **{}** (log RMS "
                         "{}); the fit {}.{}",
-                        d.model, does, count_text(d.values_used), file, d.misfit.told ? "by" : "to",
+                        d.model, does, count_text(d.values_used), file,
+                        d.misfit.told           ? " by"
+                        : d.misfit.outliers > 0 ? ", to"
+                                                : " to",
                         factor_text(log_rms), log_rms_text(log_rms),
                         d.solver.termination == "converged" ? "converged" : "**did not converge**",
                         !p.has_lobe && !parse_model(d.model).lobes.empty()

@@ -6,7 +6,6 @@
 #include <utility>
 
 #include "base/quantile.h"
-#include "table/health/rounding.h"
 
 namespace gonio {
 namespace {
@@ -17,13 +16,29 @@ constexpr std::size_t times_as_often =
 constexpr std::size_t rarely = 500;  ///< of so many values
 constexpr double most_of_all = 0.6;  ///< of the values
 constexpr double least_step = 0.15;  ///< ln of a factor between a fill and what is beside it
-constexpr double beyond_spread = 6;  ///< times what neighbours and digits differ by
+constexpr double beyond_steps = 2;   ///< times the steps in which values near it are written
 
 /// Most frequent value of a channel, where it is far more frequent than all others.
 struct Frequent {
   double value;
   std::size_t times, values;
+  double step;  ///< between other values near it [1/sr]
 };
+/// Median step between the sixteen other values that are nearest to one.
+double step_near(const std::unordered_map<double, std::size_t>& times, double value) {
+  constexpr std::ptrdiff_t near = 16;
+  std::vector<double> all;
+  for (const auto& [other, n] : times)
+    if (other != value) all.push_back(other);
+  std::ranges::sort(all);
+  const auto at = std::ranges::lower_bound(all, value);
+  const auto from = at - std::min<std::ptrdiff_t>(near / 2, at - all.begin());
+  const auto to = from + std::min<std::ptrdiff_t>(near, all.end() - from);
+  std::vector<double> steps;
+  for (auto k = from; k + 1 < to; ++k)
+    if (!(*k < value && value < k[1])) steps.push_back(k[1] - *k);
+  return steps.empty() ? 0 : median(steps);
+}
 std::optional<Frequent> most_frequent(const Table& t, const SampleAngles& at, std::size_t c) {
   const std::size_t step = t.size() / 60'000 + 1;
   std::unordered_map<double, std::size_t> times;
@@ -31,7 +46,7 @@ std::optional<Frequent> most_frequent(const Table& t, const SampleAngles& at, st
   for (std::size_t i = 0; i < t.size(); i += step)
     if (const double v = t.values[c][i]; v > 0 && mask(at(i), v) == Mask::valid)
       ++times[v], ++values;
-  Frequent first{0, 0, values};
+  Frequent first{0, 0, values, 0};
   std::size_t second = 0;
   for (const auto& [value, n] : times)
     if (n > first.times)
@@ -43,7 +58,9 @@ std::optional<Frequent> most_frequent(const Table& t, const SampleAngles& at, st
       times.size() >= few_values && first.times >= few_sharers &&
       first.times >= times_as_often * second && rarely * first.times >= values &&
       static_cast<double>(first.times) < most_of_all * static_cast<double>(values);
-  return stands_out ? std::optional(first) : std::nullopt;
+  if (!stands_out) return {};
+  first.step = step_near(times, first.value);
+  return first;
 }
 
 /// Median ln of the factor between a value and those that stand beside it in the table.
@@ -61,16 +78,15 @@ double step_beside(const Table& t, const SampleAngles& at, std::size_t c, double
 
 }  // namespace
 
-std::optional<Fill> fill_of(TableFacts& facts) {
-  const Table& t = facts.table();
+std::optional<Fill> fill_of(const Table& t) {
   if (t.truth) return {};
   const SampleAngles at(t);
   std::optional<Fill> found;
   for (std::size_t c = 0; c < t.values.size(); ++c) {
     const auto f = most_frequent(t, at, c);
     if (!f || (found && f->value != found->value)) continue;
-    const double spread = facts.noise().sigma.value_or(0) + rounding_of(t).of(f->value) / f->value;
-    if (step_beside(t, at, c, f->value) < std::max(least_step, beyond_spread * spread)) continue;
+    const double steps = beyond_steps * f->step / f->value;
+    if (step_beside(t, at, c, f->value) < std::max(least_step, steps)) continue;
     if (!found) found = {f->value, 0, 0, {}};
     found->sharers += f->times;
     found->values += f->values;

@@ -6,7 +6,7 @@
 #include <optional>
 #include <vector>
 
-#include "table/health/facts.h"
+#include "table/table.h"
 
 namespace gonio {
 
@@ -17,6 +17,6 @@ struct Fill {
   std::vector<std::size_t> channels;  ///< that hold it
 };
 /// None of a table that states its own origin, nor where most values are the same: a flat surface may be so.
-std::optional<Fill> fill_of(TableFacts&);
+std::optional<Fill> fill_of(const Table&);
 
 }  // namespace gonio

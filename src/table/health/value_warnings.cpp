@@ -572,7 +572,7 @@ void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
     return;
   }
   if (full.empty())
-    if (const auto fill = fill_of(facts)) warn_of_fill(t, *fill, all);
+    if (const auto fill = fill_of(t)) warn_of_fill(t, *fill, all);
 }
 
 /// Noise lets neighbours change sides; what was taken off too much does not.

@@ -35,8 +35,7 @@ Table measured(double noise, unsigned seed = 1) {
   return t;
 }
 std::optional<Fill> fill_in(const Table& t) {
-  TableFacts facts(t);
-  return fill_of(facts);
+  return fill_of(t);
 }
 
 TEST(Fills, AreNamedWithTheirNumberWhateverTheyAre) {
