@@ -130,6 +130,15 @@ std::string slip_form(std::size_t term) {
   }
   if (own.anisotropic && own.role() == Role::masking && own.parameters.size() == 2)
     return swapped_of_two_widths(term);
+  if (own.role() == Role::masking && own.parameters.empty()) {
+    const auto v = values_in(Number::double_, term, {}, rows);
+    const auto is = [&](const Row& r) {
+      return std::abs(v[static_cast<std::size_t>(&r - rows.data())] *
+                          (r.nol + r.nov - r.nol * r.nov) -
+                      1) < same_within;
+    };
+    return std::ranges::all_of(rows, is) ? "4 times that of Neubelt: a 4 is missing below" : "";
+  }
   const auto width = width_of(own.parameters);
   if (!width || own.anisotropic || own.role() == Role::diffuse) return "";
   std::span<const SlipForm> forms = of_masking;

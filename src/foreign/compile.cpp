@@ -94,10 +94,26 @@ std::vector<std::uint32_t> without_language(const std::vector<std::uint32_t>& wo
   return out;
 }
 
+/// The first line of the function with the most words; 0: it has none.
+std::uint32_t line_of_longest_function(const std::vector<std::uint32_t>& words) {
+  constexpr std::uint32_t op_line = 8, op_function = 54, op_function_end = 56;
+  std::size_t from = 0, most = 0;
+  std::uint32_t line = 0, longest = 0;
+  for (std::size_t at = 5; at < words.size(); at += std::max(words[at] >> 16, 1U)) {
+    const std::uint32_t op = words[at] & 0xffff;
+    if (op == op_function) from = at, line = 0;
+    if (op == op_line && line == 0 && at + 2 < words.size()) line = words[at + 2];
+    if (op == op_function_end && at - from > most) most = at - from, longest = line;
+  }
+  return longest;
+}
+
 void expect_valid(const std::vector<std::uint32_t>& words) {
-  if (words.size() > most_words)
-    throw std::runtime_error(
-        "more than 400000 words of SPIR-V, expected a function of a few pages");
+  if (words.size() > most_words) {
+    const auto line = line_of_longest_function(words);
+    throw std::runtime_error((line > 0 ? fmt::format("line {}: ", line) : "") +
+                             "more than 400000 words of SPIR-V, mostly this function's");
+  }
   spvtools::SpirvTools tools(SPV_ENV_UNIVERSAL_1_6);
   std::string said;
   tools.SetMessageConsumer([&](spv_message_level_t, const char*, const spv_position_t&,

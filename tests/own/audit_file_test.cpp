@@ -323,6 +323,12 @@ TEST(AuditFile, FormsThatNoFactorMakesOneOfOursAreNamed) {
       replaced(replaced(replaced(visible, "HALF", "0.5"), "(NoV * sqrt", "(NoL * sqrt"),
                "+ NoL * sqrt", "+ NoV * sqrt");
   EXPECT_HAS(slips(audited(swapped)), "NoL and NoV are swapped");
+  const auto cloth = [](const std::string& four) {
+    return slips(audited("float V_Neubelt(float NoV, float NoL) { return 1.0 / (" + four +
+                         "(NoL + NoV - NoL * NoV)); }\n"));
+  };
+  EXPECT_EQ(cloth("4.0 * "), "");
+  EXPECT_HAS(cloth(""), "4 times that of Neubelt");
 }
 
 TEST(AuditFile, FormsOfTwoWidthsAreKnownInEitherOrder) {
