@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "brdf/catalogue/foreign_terms.h"
 #include "brdf/model/roughness.h"
 #include "cli/line/command.h"
 #include "cli/line/reading.h"
@@ -143,6 +144,7 @@ Exit run(const StabilityCall& o) {
   std::vector<Setting> domain = parse_settings(o.domain);
   Question q;
   q.subject = chosen(o, domain);
+  if (is_foreign(o.subject)) take_foreign_guesses();  // nothing is taken out of its text
   q.arithmetic = {value_of<Number>(o.number, "number"), o.flush, o.contract, o.any_gpu};
   q.requirement = parse_requirement(o.require);
   q.boxes = o.boxes;

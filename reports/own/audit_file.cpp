@@ -680,7 +680,9 @@ namespace {
 /// Says which of a function's parameters stand for which of a model's, and what the others are.
 std::string pairs_of(const BoundModel& model,
                      std::span<const Parameter> own,
-                     const auto& stands_for) {
+                     const auto& stands_for,
+                     const auto& scale_of,
+                     const auto& note_of) {
   std::vector<std::string> all, alone;
   std::vector<bool> is_paired(own.size(), false);
   for (const auto& q : model.model.parameters) {
@@ -688,14 +690,15 @@ std::string pairs_of(const BoundModel& model,
     for (std::size_t j = 0; j < own.size(); ++j)
       if (stands_for(q.name, own[j])) {
         is_paired[j] = true;
-        text = fmt::format("{} = {}", q.name,
-                           alpha_text(std::string(own[j].name),
+        const double scale = scale_of(q.name, own[j]);
+        text = fmt::format("{} = {}{}", q.name, scale == 1 ? "" : fmt::format("{} ", scale),
+                           alpha_text(std::string(stem_of(own[j].name)),
                                       q.name == "alpha" && is_rough(own[j].name) ? 2 : 1));
       }
     all.push_back(std::move(text));
   }
   for (std::size_t j = 0; j < own.size(); ++j)
-    if (!is_paired[j]) alone.emplace_back(own[j].name);
+    if (!is_paired[j]) alone.push_back(note_of(own[j]));
   return fmt::format("{}{}", fmt::join(all, ", "),
                      alone.empty() ? "" : fmt::format("; only yours: {}", fmt::join(alone, ", ")));
 }
@@ -727,7 +730,24 @@ TermComparison compare_with_model(const std::string& own,
   const auto& rows = auditing::rows_of(Role::diffuse);
   Differences differences(c);
   BoundModel model = bind_model(spec, {}, 1);
-  c.pairs = pairs_of(model, entry.parameters, stands_for);
+  // In a metallic workflow specular is F0 of a dielectric over 0.08; metals are left out where
+  // nothing is said of them.
+  const auto is_metallic = [](const Parameter& p) {
+    return plain_name(p.name).starts_with("metal");
+  };
+  const bool has_metals = std::ranges::any_of(entry.parameters, is_metallic);
+  const auto scale_of = [&](std::string_view ours, const Parameter& p) {
+    return has_metals && ours == "f0" && lowered(std::string(p.name)) == "specular" ? 0.08 : 1.0;
+  };
+  const auto is_said = [&](const Parameter& p) {
+    return std::ranges::any_of(
+        domain, [&](const auto& d) { return lowered(d.first) == lowered(std::string(p.name)); });
+  };
+  const auto note_of = [&](const Parameter& p) {
+    return is_metallic(p) && !is_said(p) ? fmt::format("{} {:.4g}", p.name, low_of(p))
+                                         : std::string(p.name);
+  };
+  c.pairs = pairs_of(model, entry.parameters, stands_for, scale_of, note_of);
   for (std::size_t k = 0; k < places; ++k) {
     std::vector<double> p;
     for (const auto& w : entry.parameters) {
@@ -737,12 +757,13 @@ TermComparison compare_with_model(const std::string& own,
       if (std::isnan(at.start))
         throw wrong_usage(fmt::format("{} of {} has no bounds: give them by --domain {}=LOW,HIGH",
                                       w.name, own, w.name));
-      p.push_back(values_between(at, places)[k]);
+      p.push_back(is_metallic(w) && !is_said(w) ? low_of(w) : values_between(at, places)[k]);
     }
     for (const auto& q : model.model.parameters)
       for (std::size_t j = 0; j < p.size(); ++j)
         if (const auto& w = entry.parameters[j]; stands_for(q.name, w))
-          model.values[q.first] = q.name == "alpha" && is_rough(w.name) ? p[j] * p[j] : p[j];
+          model.values[q.first] =
+              q.name == "alpha" && is_rough(w.name) ? p[j] * p[j] : scale_of(q.name, w) * p[j];
     const auto f = values_in(Number::double_, term, p, rows), g = evaluate(model, rows)[0];
     for (std::size_t i = 0; i < rows.size(); ++i)
       differences.take(std::abs(f[i] / g[i] - 1), entry.parameters, p, rows[i]);

@@ -120,6 +120,8 @@ TEST(OwnModelCommands, AGuessThatChangesValuesIsSaidByEveryCommand) {
         "fit t.csv --model guess.glsl"})
     EXPECT_NE(gonio(f, words).err.find(says), std::string::npos) << words;
   EXPECT_EQ(gonio(f, "albedo guess.glsl --includes cosine,pi --mu 0.5").err, "");
+  EXPECT_EQ(gonio(f, "stability guess.glsl --domain nol=0.1,1 nov=0.1,1").err, "")
+      << "nothing is taken out of its text";
   const auto audit = gonio(f, "audit guess.glsl");
   EXPECT_EQ(audit.err, "") << "its own lines say it";
   EXPECT_NE(audit.out.find("cosine,pi (guessed"), std::string::npos) << audit.out;

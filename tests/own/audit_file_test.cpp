@@ -533,6 +533,16 @@ TEST(CompareTerms, AWholeModelIsComparedWithOurs) {
   const auto c = compare_with_model(path, "lambert+ggx/smith_ggx.separable/schlick", {});
   EXPECT_LT(c.largest, 1e-6) << c.at;
   EXPECT_GT(c.operations_b, 20U);
+  const auto engine = folder.write(
+      "e.glsl",
+      replaced(
+          replaced(tutorial("4.0"), "// f0 0 1 0.04", "// Specular 0 1 0.5\n// metallic 0 1 0"),
+          "vec3 f0, vec3 albedo) {",
+          "float Specular, float metallic, vec3 albedo) {\n  vec3 f0 = mix(vec3(0.08 * Specular), "
+          "albedo, metallic);"));
+  const auto by_engine = compare_with_model(engine, "lambert+ggx/smith_ggx.separable/schlick", {});
+  EXPECT_LT(by_engine.largest, 1e-6) << by_engine.at;
+  EXPECT_HAS(by_engine.pairs, "f0 = 0.08 Specular; only yours: metallic 0");
   EXPECT_HAS(text_of(c), "kd = albedo, alpha = roughness², f0 = f0\n");
   const auto metal =
       folder.write("m.glsl", replaced(tutorial("4.0"), "vec3 f0, vec3 albedo)",
@@ -541,7 +551,7 @@ TEST(CompareTerms, AWholeModelIsComparedWithOurs) {
   EXPECT_HAS(compare_with_model(metal + ":brdf{Metallic=0,1,0;BaseColor=0,1,0.5}",
                                 "lambert+ggx/smith_ggx.separable/schlick", {})
                  .pairs,
-             "kd = BaseColor, alpha = roughness², f0 = f0; only yours: Metallic");
+             "kd = BaseColor, alpha = roughness², f0 = f0; only yours: Metallic 0");
 }
 
 TEST(AuditFile, AClampIsFoundWithTheRoughnessBelowWhichItBites) {
