@@ -1,6 +1,8 @@
 #include "integrate/scattering/tabulated_lobe.h"
 
+#include <algorithm>
 #include <cmath>
+#include <numeric>
 
 #include "base/error.h"
 #include "base/random.h"
@@ -58,12 +60,16 @@ double share_beyond_errors(const BoundModel& m, int pairs) {
 }
 
 TEST(TabulatedLobe, IsThatOfAWalkWithinItsErrors) {
+  std::vector<double> shares;
   for (const double alpha : {0.1, 0.25, 0.6, 1.0})
     for (const double f0 : {0.04, 0.9})
-      EXPECT_LT(share_beyond_errors(tabulated_schlick("ggx", alpha, {f0}), 50), 0.15)
-          << alpha << ' ' << f0;
-  EXPECT_LT(share_beyond_errors(tabulated_schlick("beckmann", 0.6, {0.9}), 50), 0.15);
-  EXPECT_LT(share_beyond_errors(stretched_schlick(0.6, 0.2), 50), 0.15);
+      shares.push_back(share_beyond_errors(tabulated_schlick("ggx", alpha, {f0}), 50));
+  shares.push_back(share_beyond_errors(tabulated_schlick("beckmann", 0.6, {0.9}), 50));
+  shares.push_back(share_beyond_errors(stretched_schlick(0.6, 0.2), 50));
+  EXPECT_LT(std::ranges::max(shares), 0.15);
+  const auto n = static_cast<double>(shares.size());
+  EXPECT_LT(std::accumulate(shares.begin(), shares.end(), 0.0) / n, 0.05)
+      << "over all lobes two errors hold at 19 of 20 pairs";
 }
 
 struct TabulatedAlbedo {
