@@ -268,7 +268,7 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
                        of_all(makers, makes.size()), words,
                        largest > 1
                            ? fmt::format("exceed it by {} at most, within their integral's error",
-                                         percent_at_most(largest - 1))
+                                         percent_at_most(std::max(largest - 1, 1e-6)))
                            : fmt::format("reflect {} of it at most", rounded_up(largest, 4))));
 }
 

@@ -343,7 +343,10 @@ class MaterialPlanner {
     for (std::size_t n = std::min(first, enough);; n = n < enough ? enough : 4 * n) {
       fresh.draw_to(std::min(n, most), scene_, drawer_, checking, exact_, s);
       judge_both(fresh.all, fresh.own);
-      const bool fails = !may_pass(set.error, set.most_worst);
+      // What is beyond even by its estimate on many points would be a lucky draw.
+      const bool beyond = n > enough && static_cast<double>(set.error.exceeding) >
+                                            most_exceeding_ * static_cast<double>(fresh.drawn);
+      const bool fails = beyond || !may_pass(set.error, set.most_worst);
       if (n < enough ? fails && !set.error.holds(t) : fails || passes(set) || n >= most) return set;
     }
   }
