@@ -290,11 +290,15 @@ class MaterialPlanner {
       candidates_[i].ns = times[i].ns;
       candidates_[i].ns_spread = times[i].spread_ns;
     }
+    count_times(candidates_, look_);
     ns_exact_ = times.back().ns;
   }
 
   /// Of a candidate, or a judged set.
   double cost(const auto& c) const { return options_.cost == Cost::time ? c.ns : c.ops; }
+  double counted_cost(const Candidate& c) const {
+    return options_.cost == Cost::time ? c.counted_ns : c.ops;
+  }
   double spread(const Candidate& c) const { return options_.cost == Cost::time ? c.spread() : 0; }
 
   /// Those that may keep the tolerance, best first: the cheapest, and before it those as cheap that keep fewer effects.
@@ -303,13 +307,15 @@ class MaterialPlanner {
     for (const auto& c : candidates_)
       if (may_keep(c.error)) left.push_back(&c);
     std::ranges::sort(left, [&](auto* a, auto* b) {
-      return std::tuple(cost(*a), a->forms.form) < std::tuple(cost(*b), b->forms.form);
+      return std::tuple(counted_cost(*a), a->forms.form) <
+             std::tuple(counted_cost(*b), b->forms.form);
     });
     while (!left.empty()) {
-      const double most = cost(*left[0]) + spread(*left[0]);
-      const auto end = std::ranges::find_if(left, [&](auto* c) { return cost(*c) > most; });
+      const double most = counted_cost(*left[0]) + spread(*left[0]);
+      const auto end = std::ranges::find_if(left, [&](auto* c) { return counted_cost(*c) > most; });
       const auto best = std::min_element(left.begin(), end, [&](auto* a, auto* b) {
-        return std::tuple(a->kept(), a->ops, cost(*a)) < std::tuple(b->kept(), b->ops, cost(*b));
+        return std::tuple(a->kept(), a->ops, a->forms.form) <
+               std::tuple(b->kept(), b->ops, b->forms.form);
       });
       order.push_back(*best);
       left.erase(best);
@@ -506,6 +512,23 @@ std::string reference_in_words(std::string_view form) {
 
 double Candidate::spread() const {
   return std::max(ns_spread, least_spread * ns);
+}
+
+void count_times(std::vector<Candidate>& all, const Look& look) {
+  const auto is_dearer = [&](const Candidate& a, const Candidate& b) {  // or the same
+    for (std::size_t i = 0; i < effect_count; ++i) {
+      const auto e = static_cast<Effect>(i);
+      const auto& offered = look.offer(e).forms;  // cheapest first
+      if (std::ranges::find(offered, a.forms[e]) < std::ranges::find(offered, b.forms[e]))
+        return false;
+    }
+    return a.ops >= b.ops;
+  };
+  for (auto& c : all) {
+    c.counted_ns = c.ns;
+    for (const auto& other : all)
+      if (other.ns < c.counted_ns && is_dearer(other, c)) c.counted_ns = other.ns;
+  }
 }
 
 std::size_t Candidate::kept() const {

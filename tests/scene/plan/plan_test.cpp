@@ -183,6 +183,24 @@ TEST(Plan, IsTheSameForEverySeedWhereASetIsNearlyTooFarOff) {
   }
 }
 
+TEST(Plan, CountsNoSetAsSlowerThanOneOfDearerForms) {
+  const Look look(test::satin_gold());
+  Candidate cheap, dear, other;
+  cheap.forms = dear.forms = other.forms = look.structural();
+  cheap.forms[Effect::fresnel] = Form::schlick;
+  other.forms[Effect::fresnel] = Form::schlick;
+  other.forms[Effect::compensation] = Form::uncompensated;
+  dear.forms[Effect::fresnel] = Form::f82;
+  cheap.ns = 10.5, cheap.ops = 654;
+  dear.ns = 10, dear.ops = 678;
+  other.ns = 11, other.ops = 700;  // more operations for cheaper forms: nothing is known of it
+  std::vector<Candidate> all{cheap, dear, other};
+  count_times(all, look);
+  EXPECT_EQ(all[0].counted_ns, 10);
+  EXPECT_EQ(all[1].counted_ns, 10);
+  EXPECT_EQ(all[2].counted_ns, 11);
+}
+
 TEST(Plan, SaysWhereNoLightComes) {
   EXPECT_TRUE(planned(test::chalk(), {test::light({0, 0, -1})}).is_unlit());
   EXPECT_FALSE(planned(test::chalk(), test::rim()).is_unlit());
