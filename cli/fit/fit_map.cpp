@@ -7,7 +7,9 @@
 #include <optional>
 #include <system_error>
 
+#include "base/error.h"
 #include "base/file.h"
+#include "base/text.h"
 #include "cli/fit/map_result.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
@@ -73,11 +75,9 @@ StackSurvey look_at(const StackReader& stack, const FitMapCall& o) {
   progress("looking at some texels");
   StackSurvey found = survey(stack, o.texels);
   progress.clear();
-  const auto& other = found.arrangement;
-  if (other.sure && !o.as_given)
-    throw bad_input(stack.stack().path, "directions", "those of other images",
-                    fmt::format("these ({}: then {} {:.3g} times less is left; {}; or --as-given)",
-                                other.what, other.measure, 1 / other.ratio, other.cure));
+  if (found.arrangement.sure && !o.as_given)
+    throw Error(Exit::bad_input, fmt::format("{}: {}", printable(stack.stack().path, 1024),
+                                             refusal_of(found.arrangement)));
   return found;
 }
 
@@ -146,6 +146,7 @@ Exit run(const FitMapCall& o) {
   line.line()("writing " + o.output);
   MapDocument d = gather_tiles(folder, out, threads_in_use());
   d.left_out = found.left_out;
+  d.azimuth = found.arrangement.azimuth;
   d.warnings = warnings_of(found, stack.stack(), t.model);
   out.close();  // the page is made from it
   if (page) page->write(map_page_html(d, out.temporary_path()));

@@ -32,6 +32,7 @@ void print(const MapDocument& d, const std::string& beside) {
   else if (misfits(d))
     say_below("misfit  ", fmt::format("{} of the texels are off by more than noise leaves",
                                       percent(d.misfit, d.judged)));
+  if (d.azimuth && *d.azimuth != AzimuthCheck::checked) say_below("azimuth ", words_of(*d.azimuth));
   for (const auto& p : d.parameters) {
     std::string text = std::isnan(p.mean) ? "–" : fmt::format("{:.4g} on average", p.mean);
     if (!std::isnan(p.mean_std_error)) text += fmt::format(" ± {:.2g} each", p.mean_std_error);

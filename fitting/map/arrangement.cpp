@@ -9,27 +9,15 @@
 #include <string_view>
 #include <utility>
 
+#include "fitting/map/curl.h"
+#include "fitting/map/task.h"
+#include "fitting/map/turns.h"
+
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace gonio {
 namespace {
-
-/// x and y of directions become others: a mirror image or a turn by quarters.
-struct Turn {
-  std::array<int, 4> to;  ///< x' = to₀ x + to₁ y, y' = to₂ x + to₃ y
-  std::string_view what;
-  std::string_view azimuth;  ///< what the azimuth becomes, φ being as given
-  std::string_view vector;   ///< what becomes of x and y
-};
-constexpr std::array<Turn, 7> turns{
-    {{{1, 0, 0, -1}, "negated, or y points down", "−φ", "(x, −y)"},
-     {{-1, 0, 0, 1}, "counted from −x and backwards", "180° − φ", "(−x, y)"},
-     {{0, 1, 1, 0}, "counted from y, or x and y are exchanged", "90° − φ", "(y, x)"},
-     {{0, -1, -1, 0}, "counted from −y and backwards", "270° − φ", "(−y, −x)"},
-     {{0, -1, 1, 0}, "a quarter turn behind", "φ + 90°", "(−y, x)"},
-     {{0, 1, -1, 0}, "a quarter turn ahead", "φ − 90°", "(y, −x)"},
-     {{-1, 0, 0, -1}, "half a turn off", "φ + 180°", "(−x, −y)"}}};
 
 /// \param vectors  [item][3][run], as light, view and normals are
 void turn(std::vector<float>& vectors, std::size_t run, const Turn& by) {
@@ -56,7 +44,26 @@ void reorder(TexelSample& s, const std::vector<std::size_t>& order) {
 struct Arrangement {
   std::function<void(TexelSample&)> make;
   std::string what, cure;
+  std::size_t turn = turns.size();  ///< of azimuths, into turns
+  bool decides = false;             ///< nobody may believe an azimuth before this turn is excluded
+  bool is_doubtful = true;          ///< said also where it is not sure
 };
+
+/// Angles from the plane become angles from the normal.
+void count_from_normal(std::vector<float>& light, std::size_t run) {
+  for (std::size_t at = 0; at + 3 * run <= light.size(); at += 3 * run)
+    for (std::size_t k = at; k < at + run; ++k) {
+      float &x = light[k], &y = light[k + run], &z = light[k + 2 * run];
+      const float flat = std::hypot(x, y);
+      if (!(flat > 0)) {
+        z = std::nanf("");  // in the plane: no light
+        continue;
+      }
+      x *= z / flat;
+      y *= z / flat;
+      z = flat;
+    }
+}
 
 /// Orders in which images are listed by mistake.
 std::vector<std::pair<std::vector<std::size_t>, std::string>> orders(std::size_t images) {
@@ -83,27 +90,34 @@ std::vector<std::pair<std::vector<std::size_t>, std::string>> orders(std::size_t
   return all;
 }
 
-std::vector<Arrangement> arrangements(const TexelSample& s) {
+/// \param with_tangent  the model has one
+std::vector<Arrangement> arrangements(const TexelSample& s, bool with_tangent) {
   std::vector<Arrangement> all;
   const std::size_t run = s.shared ? 1 : s.texels;
-  const auto add = [&](std::string_view whose, std::string_view key, const Turn& by,
+  const auto add = [&](std::string_view whose, std::string_view key, bool decides,
                        std::vector<std::vector<float> TexelSample::*> which) {
-    all.push_back({[=, texels = s.texels](TexelSample& to) {
-                     for (const auto vectors : which)
-                       turn(to.*vectors, vectors == &TexelSample::normal ? texels : run, by);
-                   },
-                   fmt::format("{} is {}", whose, by.what),
-                   fmt::format("{} becomes {}, a vector's (x, y) {}", key, by.azimuth, by.vector)});
+    for (std::size_t k = 0; k < turns.size(); ++k)
+      all.push_back({[=, by = turns[k], texels = s.texels](TexelSample& to) {
+                       for (const auto vectors : which)
+                         turn(to.*vectors, vectors == &TexelSample::normal ? texels : run, by);
+                     },
+                     fmt::format("{} is {}", whose, turns[k].what),
+                     fmt::format("{} becomes {}, a vector's (x, y) {}", key, turns[k].azimuth,
+                                 turns[k].vector),
+                     k, decides});
   };
   // The likeliest first: of several that are equally good the first is named.
-  for (const auto& by : turns) add("the light's azimuth", "phi_i", by, {&TexelSample::light});
-  for (const auto& by : turns) add("the view's azimuth", "phi_o", by, {&TexelSample::view});
-  for (const auto& by : turns)
-    if (s.normal.empty())
-      add("the azimuth of light and view", "φ, as phi_i and phi_o,", by,
-          {&TexelSample::light, &TexelSample::view});
-    else
-      add("the normals' azimuth", "φ, the azimuth of X and Y,", by, {&TexelSample::normal});
+  add("the light's azimuth", "phi_i", true, {&TexelSample::light});
+  add("the view's azimuth", "phi_o", false, {&TexelSample::view});
+  if (s.normal.empty())
+    add("the azimuth of light and view", "φ, as phi_i and phi_o,", with_tangent,
+        {&TexelSample::light, &TexelSample::view});
+  else
+    add("the normals' azimuth", "φ, the azimuth of X and Y,", true, {&TexelSample::normal});
+  all.push_back({[run](TexelSample& to) { count_from_normal(to.light, run); },
+                 "the light's angle is measured from the plane, and not from the normal",
+                 "theta_i becomes 90° − θ, a vector's length in the plane and its z are exchanged",
+                 turns.size(), false, false});
   for (auto& [order, what] : orders(s.images))
     all.push_back({[order = order](TexelSample& to) { reorder(to, order); }, what,
                    "list them in the order of their directions"});
@@ -125,7 +139,7 @@ OtherArrangement other_arrangement(const TexelSample& s, TexelOptions asked, Tex
   const auto as_given = residuals_of_both(s, given);
   const auto compared = static_cast<std::size_t>(
       std::ranges::count_if(as_given, [](double left) { return left >= 0; }));
-  const auto all = arrangements(s);
+  const auto all = arrangements(s, TexelTask(asked, s.channels).turns());
   std::vector<ResidualRatio> seen(all.size());
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t k) {
     TexelSample sample = s;
@@ -134,75 +148,95 @@ OtherArrangement other_arrangement(const TexelSample& s, TexelOptions asked, Tex
                                 residual_floor(given));
     if (seen[k].texels * 2 < compared) seen[k] = {};
   });
+  // Of a surface many texels may be indifferent, as the threads of cloth that run along one axis:
+  // those that tell decide.
+  const auto enough = std::max(few_texels, compared / 10);
+  const auto decided = [&](std::size_t for_it, std::size_t against) {
+    return for_it >= enough && 20 * against <= for_it;
+  };
   OtherArrangement best;
   std::size_t best_at = 0;
+  double least = 1;
+  bool others_excluded = true, half_turn_excluded = true;
   for (std::size_t k = 0; k < all.size(); ++k) {
+    const ResidualRatio& r = seen[k];
+    if (all[k].decides && !decided(r.doubled, r.halved))
+      (all[k].turn == half_turn ? half_turn_excluded : others_excluded) = false;
+    const bool by_those_that_tell = decided(r.halved, r.doubled);
+    if (r.lower < 0.8 || (r.ratio > 0.9 && !by_those_that_tell)) continue;
     // The first of those that are as good.
-    if (seen[k].lower < 0.8 || seen[k].ratio > 0.9 || seen[k].ratio > 0.98 * best.ratio) continue;
-    best = {all[k].what, all[k].cure, "an rms", seen[k].ratio,
-            seen[k].ratio <= 0.5 && seen[k].lower >= 0.9};
+    const double left = r.ratio <= 0.9
+                            ? r.ratio
+                            : 1 - static_cast<double>(r.halved) / static_cast<double>(r.texels);
+    const bool is_sure = by_those_that_tell || (r.ratio <= 0.5 && r.lower >= 0.9);
+    if (left > 0.98 * least || !(is_sure || all[k].is_doubtful)) continue;
+    least = left;
+    best.what = all[k].what;
+    best.cure = {all[k].cure};
+    best.ratio = by_those_that_tell ? std::min(r.ratio, 0.5) : r.ratio;
+    best.sure = is_sure;
     best_at = k;
   }
+  if (others_excluded)
+    best.azimuth = half_turn_excluded ? AzimuthCheck::checked : AzimuthCheck::half_turn_open;
   if (best.what.empty() || best.sure) return best;
   // One that only helps is no cure.
   TexelSample sample = s;
   all[best_at].make(sample);
-  return shared_residuals(sample, fit_sample(sample, better), better) > 0 ? OtherArrangement{}
-                                                                          : best;
+  if (shared_residuals(sample, fit_sample(sample, better), better) > 0)
+    best = OtherArrangement{{}, {}, "an rms", 1, false, best.azimuth};
+  return best;
 }
 
-OtherArrangement arrangement_of_normals(const TexelSample& s, const TexelFit& refined) {
+OtherArrangement arrangement_of_normals(const TexelSample& s,
+                                        const TexelFit& refined,
+                                        const std::string& example) {
   OtherArrangement found;
-  if (s.block != 4 || refined.normal.empty()) return found;
-  // Changes of the slopes P along x and Q along y, in each square of texels.
-  struct Changes {
-    double p_x, p_y, q_x, q_y;
-  };
-  std::vector<Changes> squares;
-  for (std::size_t t = 0; t < s.texels; t += s.block) {
-    const auto slope = [&](std::size_t axis, std::size_t k) {
-      return double{-refined.normal[axis * s.texels + t + k]} /
-             double{refined.normal[2 * s.texels + t + k]};
+  const auto seen = turns_of_normals(s, refined.normal);
+  if (std::ranges::all_of(seen, [](auto& t) { return t.verdict == AzimuthVerdict::excluded; }))
+    found.azimuth = AzimuthCheck::half_turn_open;
+  for (const auto& t : seen) {
+    if (t.verdict != AzimuthVerdict::right || t.ratio >= found.ratio) continue;
+    const auto &one = turns[t.turn], &other = turns[t.turn + 1];
+    const auto side = [](const Turn& of) {  // of a lamp that is said to stand on the right
+      return of.to[0] > 0 ? "right" : of.to[0] < 0 ? "left" : of.to[2] > 0 ? "upper" : "lower";
     };
-    const auto along_x = [&](std::size_t a) {
-      return slope(a, 1) + slope(a, 3) - slope(a, 0) - slope(a, 2);
+    const auto answer = [&](const Turn& of) {
+      return fmt::format("the {} side: phi_i becomes {}, a vector's (x, y) {}", side(of),
+                         of.azimuth, of.vector);
     };
-    const auto along_y = [&](std::size_t a) {  // upwards
-      return slope(a, 0) + slope(a, 1) - slope(a, 2) - slope(a, 3);
-    };
-    const Changes c{along_x(0), along_y(0), along_x(1), along_y(1)};
-    if (std::isfinite(c.p_x + c.p_y + c.q_x + c.q_y)) squares.push_back(c);
-  }
-  const auto curls = [&](const std::array<int, 4>& to) {
-    std::vector<double> all;
-    for (const auto& c : squares)
-      all.push_back(std::abs(to[0] * c.p_y + to[1] * c.q_y - to[2] * c.p_x - to[3] * c.q_x));
-    return all;
-  };
-  const auto given = curls({1, 0, 0, 1});
-  constexpr std::size_t few_squares = 32;  // so that chance does not accuse
-  if (given.size() < few_squares) return found;
-  // One of each two that differ by half a turn.
-  for (const std::size_t k : {0, 2, 4}) {
-    const auto now = curls(turns[k].to);
-    std::size_t lower = 0;
-    for (std::size_t q = 0; q < now.size(); ++q) lower += now[q] < given[q];
-    const double ratio = median_of(now) / median_of(given);
-    // Half as much in most squares; or less in more of them than chance makes, by six standard
-    // errors of a sign test.
-    const auto n = static_cast<double>(now.size()), less = static_cast<double>(lower);
-    const bool sure =
-        (ratio <= 0.5 && less >= 0.8 * n) || (ratio <= 0.8 && less >= n / 2 + 6 * std::sqrt(n) / 2);
-    if (!sure || ratio >= found.ratio) continue;
-    const auto &one = turns[k], &other = turns[k + 1];
-    found = {
-        fmt::format("the light's azimuth is {}; or it is {}", one.what, other.what),
-        fmt::format("phi_i becomes {}, a vector's (x, y) {}, if the surface then has its bumps and "
-                    "hollows right; else {}, and {}",
-                    one.azimuth, one.vector, other.azimuth, other.vector),
-        "a curl of the refined normals, which a surface's have not,", ratio, true};
+    found.what = fmt::format("the light's azimuth is {}; or it is {}", one.what, other.what);
+    found.cure = {
+        fmt::format("look at {} first: which side of a bump is bright? (the list has that "
+                    "lamp on the right)",
+                    example),
+        answer(one), answer(other)};
+    found.measure = "a curl of the refined normals, which a surface's have not,";
+    found.ratio = t.ratio;
+    found.sure = true;
   }
   return found;
+}
+
+std::string words_of(AzimuthCheck azimuth) {
+  switch (azimuth) {
+    case AzimuthCheck::checked:
+      return "checked";
+    case AzimuthCheck::half_turn_open:
+      return "checked, but for half a turn, which makes hollows of bumps: compare with a feature "
+             "that you know";
+    case AzimuthCheck::open:
+      break;
+  }
+  return "could not be checked on this surface: photograph a coin or a ball under the same lamps, "
+         "or compare with a feature that you know";
+}
+
+std::string refusal_of(const OtherArrangement& a) {
+  std::string lines = fmt::format("directions: {}\n  so read, {} {:.3g} times less is left", a.what,
+                                  a.measure, 1 / a.ratio);
+  for (const auto& line : a.cure) lines += "\n  " + line;
+  return lines + "\n  --as-given fits all the same";
 }
 
 }  // namespace gonio

@@ -49,6 +49,8 @@ inline constexpr auto description<MapDocument> = FieldList{
     Field{"left_out", &MapDocument::left_out,
           "part of a sample's values that is not compared: no number, below 0, clipped or dark"},
     Field{"rms", &MapDocument::rms, "of the metric's residuals, on average over the texels"},
+    Field{"azimuth", &MapDocument::azimuth,
+          "whether the azimuths of the lights were checked, by a sample of the texels"},
     Field{"warnings", &MapDocument::warnings,
           "what a sample of the texels says of the stack and the model"},
     Field{"parameters", &MapDocument::parameters, "by their names"},

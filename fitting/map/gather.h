@@ -6,11 +6,13 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "base/describe.h"
 #include "base/file.h"
+#include "fitting/map/arrangement.h"
 #include "fitting/map/tiles.h"
 
 namespace gonio {
@@ -29,8 +31,9 @@ struct MapDocument {
   std::uint64_t misfit = 0;  ///< of these, texels that are off by more than noise leaves
   double left_out = std::numeric_limits<double>::quiet_NaN();  ///< part of a sample's values; of
                                                                ///< tiles that were joined unknown
-  double rms = 0;                     ///< of the metric's residuals, on average; NaN of none
-  std::vector<std::string> warnings;  ///< of a survey; of tiles that were joined none
+  double rms = 0;                       ///< of the metric's residuals, on average; NaN of none
+  std::optional<AzimuthCheck> azimuth;  ///< of a survey; of tiles that were joined unknown
+  std::vector<std::string> warnings;    ///< of a survey; of tiles that were joined none
   std::vector<MapParameter> parameters;
 };
 /// Whether more of the judged texels are off than chance makes.

@@ -85,6 +85,7 @@ std::vector<double> residual_floor(const TexelFit& f) {
 ResidualRatio compare_residuals(std::vector<double> now,
                                 std::vector<double> before,
                                 const std::vector<double>& least) {
+  ResidualRatio c;
   std::vector<double> ratios;
   constexpr double alike = 0.01;
   std::size_t lower = 0, higher = 0;
@@ -95,8 +96,9 @@ ResidualRatio compare_residuals(std::vector<double> now,
     ratios.push_back(now[t] / before[t]);
     lower += now[t] < (1 - alike) * before[t];
     higher += now[t] > (1 + alike) * before[t];
+    c.halved += 2 * now[t] <= before[t];
+    c.doubled += now[t] >= 2 * before[t];
   }
-  ResidualRatio c;
   c.texels = ratios.size();
   if (ratios.empty()) return c;
   if (lower > 0) c.lower = static_cast<double>(lower) / static_cast<double>(lower + higher);
@@ -200,10 +202,13 @@ double shared_residuals(const TexelSample& s, const TexelFit& f, const TexelOpti
     const bool is_resolved = left[t] > least[t] && left[next] > least[next];
     shared.push_back(is_resolved && product != 0 ? product / std::sqrt(first * second) : 0);
   }
-  constexpr double chance = 0.35;
+  constexpr double chance = 0.35, chance_of_quarter = 0.55;
   if (2 * shared.size() < few_texels) return 0;
-  const double part = median_of(std::move(shared));
-  return part > chance ? part : 0;
+  if (const double part = median_of(shared); part > chance) return part;
+  // Where half of a surface fits, and where bumps change the sign of what is left.
+  for (double& part : shared) part = std::abs(part);
+  const double part = quantile(shared, 0.75);
+  return part > chance_of_quarter ? part : 0;
 }
 
 std::vector<double> unseen_errors(const TexelSample& s, const TexelOptions& o) {

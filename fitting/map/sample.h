@@ -16,9 +16,10 @@ struct TexelSample {
   std::size_t texels = 0, images = 0, channels = 0;
   bool shared = true;
   bool of_light = false;  ///< values are times n·l, as a camera has them
-  /// Texels of a piece of the map: 4 are a square, from top left to bottom right; 1: they lie anywhere.
-  std::size_t block = 1;
   std::vector<float> values, light, view, normal;
+  /// Texels of a piece of the map, row by row from its top left; 1: they lie anywhere.
+  std::size_t block = 1;
+  std::size_t block_width = 1;  ///< how many of them are side by side
 
   TexelSamples spans() const {
     return {texels, images, channels, values, shared, light, view, normal};
@@ -50,6 +51,7 @@ struct ResidualRatio {
   double lower =
       0;  ///< of the texels where the two differ by more than 1 %, the part where it leaves less
   std::size_t texels = 0;
+  std::size_t halved = 0, doubled = 0;  ///< texels where it leaves half or less, or twice or more
 };
 /// A thousandth of each texel's signal: smaller residuals are not compared, for no camera resolves them.
 std::vector<double> residual_floor(const TexelFit&);
@@ -73,8 +75,8 @@ std::vector<double> differences(const TexelSample&,
                                 const std::vector<double>& f_r,
                                 Metric);
 double rms_of_all(const std::vector<double>&);
-/// Part of the residuals' squares that texels share with those of the next block, the median: near 1 where the model or an image is off, 0 where chance
-/// makes as much, nothing is left that a camera resolves, or too few texels tell.
+/// Part of the residuals' squares that texels share with those of the next block, the median; else the upper quartile of its size: near 1 where the model or
+/// an image is off, 0 where chance makes as much, nothing is left that a camera resolves, or too few texels tell.
 double shared_residuals(const TexelSample&, const TexelFit&, const TexelOptions&);
 /// rms of each texel's differences in images that its fit has not seen, a fourth of them at a time.
 std::vector<double> unseen_errors(const TexelSample&, const TexelOptions&);

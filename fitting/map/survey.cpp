@@ -9,6 +9,7 @@
 #include "fitting/map/images.h"
 #include "fitting/map/sample.h"
 #include "fitting/map/task.h"
+#include "fitting/map/tone.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -209,7 +210,29 @@ void blame_images(const TexelSample& s, const TexelOptions& o, StackSurvey& foun
   if (found.exposure || found.exchanged) {
     found.odd.clear();
     found.better.clear();
+    found.seeks_normals = false;
   }
+}
+
+/// Part of the texels that reflect more than any dielectric: more than all light, or a highlight of metal above a base that is none.
+double too_bright(const TexelFit& f) {
+  constexpr double brightest_f0 = 0.3, dark_kd = 0.1;
+  std::size_t bright = 0, all = 0;
+  for (std::size_t t = 0; t < f.rms.size(); ++t) {
+    bool is_bright = false, is_known = false;
+    for (const auto& kd : f.columns)
+      for (const auto& f0 : f.columns) {
+        if (kd.parameter != "kd" || f0.parameter != "f0" ||
+            (f0.channel >= 0 && kd.channel != f0.channel))
+          continue;
+        const double base = double{kd.value[t]}, top = double{f0.value[t]};
+        is_known = is_known || base + top >= 0;
+        is_bright = is_bright || base + top > 1 || (top > brightest_f0 && base > dark_kd);
+      }
+    all += is_known;
+    bright += is_bright;
+  }
+  return all < few_texels ? 0 : static_cast<double>(bright) / static_cast<double>(all);
 }
 
 StackSurvey survey(const TexelSample& s, const TexelOptions& o) {
@@ -220,20 +243,32 @@ StackSurvey survey(const TexelSample& s, const TexelOptions& o) {
   found.left_out = 1 - double{taken} / static_cast<double>(s.values.size());
   if (found.texels < few_texels) return found;
   const auto [best, ratio] = best_options(s, o, given);
+  if (o.refine_normals && !s.normal.empty()) {  // which would hide that the given ones are others
+    TexelOptions kept = o;
+    kept.refine_normals = false;
+    found.arrangement = other_arrangement(s, kept, kept);
+    if (found.arrangement.sure) return found;
+  }
+  const AzimuthCheck by_normals = found.arrangement.azimuth;
   found.arrangement = other_arrangement(s, o, best);
+  found.arrangement.azimuth = std::max(found.arrangement.azimuth, by_normals);
   if (found.arrangement.sure) return found;  // all else would be judged by wrong directions
-  if (o.refine_normals) found.arrangement = arrangement_of_normals(s, given);
-  if (found.arrangement.sure) return found;
   const bool is_other = ratio < 1;
+  found.without_normals = s.normal.empty() && TexelTask(o, s.channels).turns();
   const TexelFit of_best = is_other ? fit_sample(s, best) : given;
   found.shared = shared_residuals(s, of_best, best);
   found.noise = noise_of(of_best, is_other, found.shared);
   found.odd = odd_images(s, best);
   if (is_other) {
-    found.better = best.model == o.model ? "--refine-normals" : best.model;
+    found.seeks_normals = best.model == o.model;
+    if (!found.seeks_normals) found.better = best.model;
     found.better_ratio = ratio;
   }
   if (found.shared > 0) blame_images(s, o, found);
+  if (const bool is_explained = found.exposure || found.exchanged;
+      !is_explained && (found.shared > 0 || is_other))
+    found.tone = other_tone(s, o, of_best);
+  found.too_bright = too_bright(given);
   return found;
 }
 
@@ -243,66 +278,123 @@ StackSurvey survey(const TexelSamples& s, const TexelOptions& o) {
   const auto copy = [](std::span<const float> from) {
     return std::vector<float>(from.begin(), from.end());
   };
-  return survey(TexelSample{s.texels, s.images, s.channels, s.shared, false, 1, copy(s.values),
+  return survey(TexelSample{s.texels, s.images, s.channels, s.shared, false, copy(s.values),
                             copy(s.light), copy(s.view), copy(s.normal)},
                 o);
 }
 
 namespace {
 
-/// Texels spread over a stack in squares of four, whose normals say whether they belong to a surface: fewer of many images, and of wide
-/// ones no more than the middle, so that neither time nor memory grows with them.
-/// \param times  how many times as many as are looked at
-TexelSample sample_of(const StackReader& stack, std::size_t times) {
-  constexpr std::size_t least_rows = 4, most_of_row = 64, most_numbers = 1 << 24;
+/// Pieces of a map that lie in a band of its rows.
+struct Band {
+  std::size_t y = 0;
+  std::vector<std::size_t> x;
+};
+struct Pieces {
+  std::size_t width = 0, height = 0;  ///< of each
+  std::vector<Band> bands;            ///< as many pieces in each
+};
+
+constexpr std::size_t most_numbers = 1 << 24;  ///< that are read at once
+
+/// Columns that bands of such a height may have; wide ones no more than the middle, so that neither time nor memory grows with them.
+std::size_t columns_of(const StackReader& stack, std::size_t height) {
+  const std::size_t of_row = height * stack.stack().images.size() * stack.channels().size();
+  return std::clamp(most_numbers / of_row, std::size_t{1}, stack.width());
+}
+
+/// The k-th of n places in a room, at distances that no pattern of a surface has: by steps of the generalised golden ratio in two dimensions [Roberts 2018].
+/// \param number  of the place among all of them
+std::size_t place(std::size_t k, std::size_t n, std::size_t room, double step, std::size_t number) {
+  const double within = std::fmod(0.5 + step * static_cast<double>(number), 1);
+  return static_cast<std::size_t>((static_cast<double>(k) + within) / static_cast<double>(n) *
+                                  static_cast<double>(room));
+}
+constexpr double step_across = 0.5698402909980532, step_down = 0.7548776662466927;
+
+/// Squares of four in a few rows: fewer of many images.
+Pieces few_squares(const StackReader& stack) {
+  constexpr std::size_t least_rows = 4, most_of_row = 64;
   const std::size_t images = stack.stack().images.size(),
-                    texels = times * least_rows *
+                    texels = least_rows *
                              std::clamp(std::size_t{1 << 14} / images, std::size_t{8}, most_of_row),
-                    columns = std::clamp(most_numbers / (2 * images * stack.channels().size()),
-                                         std::size_t{1}, stack.width()),
-                    begin = (stack.width() - columns) / 2, wide = std::min(columns, std::size_t{2}),
-                    high = std::min(stack.height(), std::size_t{2}), block = wide * high,
+                    columns = columns_of(stack, 2), begin = (stack.width() - columns) / 2;
+  Pieces p{std::min(columns, std::size_t{2}), std::min(stack.height(), std::size_t{2}), {}};
+  const std::size_t block = p.width * p.height,
                     across = std::min(std::max<std::size_t>(texels / least_rows / block, 1),
-                                      columns / wide),
+                                      columns / p.width),
                     down = std::min(std::max(least_rows, texels / (across * block)),
-                                    stack.height() / high);
-  TexelSample s;
-  s.texels = down * across * block;
-  s.block = block;
-  s.shared = stack.shared();
-  StackPart part;
+                                    stack.height() / p.height);
   for (std::size_t r = 0; r < down; ++r) {
-    const std::size_t y = (2 * r + 1) * stack.height() / (2 * down) - high / 2;
-    stack.read({begin, y, columns, high}, part);
-    if (r == 0) {
-      s.images = part.images;
-      s.channels = part.channels;
-      s.values.resize(s.images * s.channels * s.texels);
-      const std::size_t directions = 3 * s.images * (s.shared ? 1 : s.texels);
-      s.light.resize(directions);
-      s.view.resize(directions);
-      if (stack.has_normals()) s.normal.resize(3 * s.texels);
-    }
-    for (std::size_t k = 0; k < across * block; ++k) {
-      const std::size_t x = (2 * (k / block) + 1) * columns / (2 * across) - wide / 2 + k % wide,
-                        at = k % block / wide * columns + x, to = r * across * block + k;
-      const auto piece = part.piece(at / StackPart::piece_texels);
-      const std::size_t from = at - piece.first;
-      const auto take = [&](std::span<const float> in, std::vector<float>& out) {
-        for (std::size_t row = 0; (row + 1) * piece.texels <= in.size(); ++row)
-          out[row * s.texels + to] = in[row * piece.texels + from];
-      };
-      take(piece.values, s.values);
-      if (!s.shared) {
-        take(piece.light, s.light);
-        take(piece.view, s.view);
+    Band& band = p.bands.emplace_back();
+    band.y = place(r, down, stack.height() - p.height + 1, step_down, r);
+    for (std::size_t k = 0; k < across; ++k)
+      band.x.push_back(begin +
+                       place(k, across, columns - p.width + 1, step_across, r * across + k));
+  }
+  return p;
+}
+
+/// Squares of 33, whose loops have up to 32 texels a side.
+Pieces large_squares(const StackReader& stack) {
+  constexpr std::size_t side = 33, most_bands = 6, most_across = 4;
+  Pieces p{std::min(side, stack.width()), std::min(side, stack.height()), {}};
+  const std::size_t numbers =
+                        p.width * p.height * stack.stack().images.size() * stack.channels().size(),
+                    most = std::max<std::size_t>(most_numbers / numbers, 2),
+                    columns = std::max(columns_of(stack, p.height), p.width),
+                    across =
+                        std::clamp<std::size_t>(columns / p.width, 1, std::min(most_across, most)),
+                    down = std::clamp<std::size_t>(stack.height() / p.height * 2, 1,
+                                                   std::min(most_bands, most / across));
+  for (std::size_t r = 0; r < down; ++r) {
+    Band& band = p.bands.emplace_back();
+    band.y = place(r, down, stack.height() - p.height + 1, step_down, r);
+    for (std::size_t k = 0; k < across; ++k)
+      band.x.push_back((stack.width() - columns) / 2 +
+                       place(k, across, columns - p.width + 1, step_across, r * across + k));
+  }
+  return p;
+}
+
+TexelSample sample_of(const StackReader& stack, const Pieces& pieces) {
+  const std::size_t across = pieces.bands[0].x.size();
+  TexelSample s;
+  s.block = pieces.width * pieces.height;
+  s.block_width = pieces.width;
+  s.texels = pieces.bands.size() * across * s.block;
+  s.shared = stack.shared();
+  s.images = stack.stack().images.size();
+  s.channels = stack.channels().size();
+  s.values.resize(s.images * s.channels * s.texels);
+  s.light.resize(3 * s.images * (s.shared ? 1 : s.texels));
+  s.view.resize(s.light.size());
+  if (stack.has_normals()) s.normal.resize(3 * s.texels);
+  StackPart part;
+  std::size_t to = 0;
+  for (const Band& band : pieces.bands) {
+    const std::size_t begin = band.x.front(), columns = band.x.back() + pieces.width - begin;
+    stack.read({begin, band.y, columns, pieces.height}, part);
+    for (const std::size_t x : band.x)
+      for (std::size_t k = 0; k < s.block; ++k, ++to) {
+        const std::size_t at = k / pieces.width * columns + x - begin + k % pieces.width;
+        const auto piece = part.piece(at / StackPart::piece_texels);
+        const std::size_t from = at - piece.first;
+        const auto take = [&](std::span<const float> in, std::vector<float>& out) {
+          for (std::size_t row = 0; (row + 1) * piece.texels <= in.size(); ++row)
+            out[row * s.texels + to] = in[row * piece.texels + from];
+        };
+        take(piece.values, s.values);
+        if (!s.shared) {
+          take(piece.light, s.light);
+          take(piece.view, s.view);
+        }
+        if (stack.has_normals()) take(piece.normal, s.normal);
       }
-      if (stack.has_normals()) take(piece.normal, s.normal);
-    }
-    if (s.shared && r == 0) {
-      std::ranges::copy(part.piece(0).light, s.light.begin());
-      std::ranges::copy(part.piece(0).view, s.view.begin());
-    }
+  }
+  if (s.shared) {
+    std::ranges::copy(part.piece(0).light, s.light.begin());
+    std::ranges::copy(part.piece(0).view, s.view.begin());
   }
   s.of_light = stack.stack().values == StackValues::f_r_cosine;
   if (s.of_light)  // what was divided by n·l of the directions as given
@@ -315,18 +407,29 @@ TexelSample sample_of(const StackReader& stack, std::size_t times) {
   return s;
 }
 
+/// The image whose lamp stands farthest to the right.
+std::string lamp_on_the_right(const Stack& stack) {
+  const auto right = [](const StackImage& i) {
+    const auto light = direction_of(i.light);
+    return light ? light->x - std::abs(light->y) : -2;
+  };
+  return std::ranges::max_element(stack.images, {}, right)->path;
+}
+
 }  // namespace
 
 StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
-  StackSurvey found = survey(sample_of(stack, 1), o);
+  StackSurvey found = survey(sample_of(stack, few_squares(stack)), o);
   TexelOptions refined = o;
-  refined.refine_normals = o.refine_normals || found.better == "--refine-normals";
-  if (!refined.refine_normals || stack.has_normals() || found.arrangement.sure) return found;
-  // Of gentle bumps the curl of a few squares is noise.
-  constexpr std::size_t many = 16;
-  const TexelSample more = sample_of(stack, many);
-  if (const auto other = arrangement_of_normals(more, fit_sample(more, refined)); other.sure)
+  refined.refine_normals = o.refine_normals || found.seeks_normals;
+  if (!refined.refine_normals || found.arrangement.sure || found.texels < few_texels) return found;
+  const TexelSample pieces = sample_of(stack, large_squares(stack));
+  const auto other =
+      arrangement_of_normals(pieces, fit_sample(pieces, refined), lamp_on_the_right(stack.stack()));
+  if (other.sure)
     found.arrangement = other;
+  else
+    found.arrangement.azimuth = std::max(found.arrangement.azimuth, other.azimuth);
   return found;
 }
 
@@ -346,16 +449,43 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
   const auto times = [](double ratio) { return fmt::format("{:.3g}", 1 / ratio); };
   if (const auto& a = s.arrangement; !a.what.empty())
     lines.push_back(fmt::format("it may be that {}: so read, {} {} times less is left (then {})",
-                                a.what, a.measure, times(a.ratio), a.cure));
-  if (s.better.starts_with("--"))
+                                a.what, a.measure, times(a.ratio), fmt::join(a.cure, "; ")));
+  if (const auto& t = s.tone) {
+    const std::string less = fmt::format("an rms {} times less is left then", times(t->ratio));
+    if (t->power != 1)
+      lines.push_back(
+          fmt::format("the photographs seem not to be linear: read with a power of {:.2g}, "
+                      "{}. Develop them without a tone curve, and make the stack again",
+                      t->power, less));
+    else if (t->room > 0)
+      lines.push_back(
+          fmt::format("the photographs seem to hold light of the room, about {:.0f} % of "
+                      "what they have on average: {}. Subtract a photograph taken with all "
+                      "lamps off from each, and see that they are linear",
+                      100 * t->room, less));
+    else
+      lines.push_back(
+          fmt::format("the photographs seem to be too bright, by a factor of {:.2g}: {}. "
+                      "See that --white is the number of a white tile that faces a lamp",
+                      1 / t->scale, less));
+  }
+  if (const bool is_said = s.tone && s.tone->scale != 1; !is_said && s.too_bright > 0.5)
     lines.push_back(
-        fmt::format("the surface is not flat, or its normals are others: with {} the images that "
-                    "fits have not seen leave an rms {} times less",
-                    s.better, times(s.better_ratio)));
-  else if (!s.better.empty())
-    lines.push_back(fmt::format(
-        "{} does not fit: in images that fits have not seen, {} leaves an rms {} times less", model,
-        s.better, times(s.better_ratio)));
+        fmt::format("{:.0f} % of the texels reflect more than a dielectric can, f0 above "
+                    "0.3 beside kd, or more than all light. See that --white is the number "
+                    "of a white tile that faces a lamp, and that the photographs are linear",
+                    100 * s.too_bright));
+  if (s.seeks_normals)
+    lines.push_back(
+        fmt::format("the surface is not flat, or its normals are others: with --refine-normals the "
+                    "images that fits have not seen leave an rms {} times less",
+                    times(s.better_ratio)));
+  else if (!s.better.empty() && !s.tone)
+    lines.push_back(
+        fmt::format("{} does not fit: in images that fits have not seen, {} leaves an rms {} times "
+                    "less. See first "
+                    "that the photographs are linear and hold no light of the room",
+                    model, s.better, times(s.better_ratio)));
   for (const auto& odd : s.odd)
     lines.push_back(fmt::format(
         "{} does not agree with the other images, which leave an rms {} times less "
@@ -378,12 +508,21 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
     lines.push_back(fmt::format(
         "{} and {} stand for each other: exchanged, the images leave an rms {} times less",
         stack.images[e->first].path, stack.images[e->second].path, times(e->ratio)));
-  if (s.shared > 0 && s.odd.empty() && !s.exposure && !s.exchanged)
-    lines.push_back(fmt::format(
-        "{:.0f} % of what {} leaves is alike in neighbouring texels, so it is no noise. Either the "
-        "model is wrong, or the images' exposures, lamps or order are, "
-        "or they are not linear",
-        100 * s.shared, s.better.empty() ? model : s.better));
+  if (s.shared > 0 && s.odd.empty() && !s.exposure && !s.exchanged && !s.tone) {
+    lines.push_back(
+        fmt::format("{:.0f} % of what {} leaves is alike in neighbouring texels, so it is no "
+                    "noise. See first that "
+                    "the photographs are linear and without light of the room, then to exposures, "
+                    "lamps and their "
+                    "order; else the model is wrong",
+                    100 * s.shared, s.better.empty() ? model : s.better));
+  }
+  if (s.shared > 0 && s.without_normals)
+    lines.push_back(
+        "an anisotropic model takes the surface for flat, as the stack has no normals: if it is "
+        "not, "
+        "widths and tangents are others. Give \"normals\" in the stack, as those that an isotropic "
+        "model finds with --refine-normals");
   return lines;
 }
 

@@ -143,6 +143,28 @@ Section parameters_of(const MapDocument& d) {
   return {"Parameters", "Means are over the texels that have a value.", {std::move(t)}};
 }
 
+/// Whether the map may be believed; no praise where the azimuth or the model is in doubt.
+std::string verdict_of(const MapDocument& d) {
+  const std::string azimuth =
+      d.azimuth && *d.azimuth != AzimuthCheck::checked
+          ? " The lights' azimuth " + std::string(*d.azimuth == AzimuthCheck::open ? "" : "was ") +
+                words_of(*d.azimuth) + "."
+          : "";
+  if (d.judged == 0)
+    return "Whether the model fits is not judged: the noise is not known." + azimuth;
+  if (misfits(d))
+    return fmt::format(
+               "**{}** are off by more than noise leaves: the model does not fit there, and "
+               "intervals say little.",
+               percent(static_cast<double>(d.misfit) / static_cast<double>(d.judged))) +
+           azimuth;
+  if (!azimuth.empty() || !d.warnings.empty())
+    return (d.warnings.empty() ? "" : "Read the warnings below before you believe the map.") +
+           azimuth;
+  return "The model is off by no more than noise leaves, as far as a sample of the texels knows "
+         "the noise.";
+}
+
 }  // namespace
 }  // namespace gonio::page
 
@@ -155,18 +177,10 @@ std::string map_page_html(const MapDocument& d, const std::string& map) {
   Page out{"", "fit_map", "Map of " + file_name(d.path),
            fmt::format("{} fitted to {} × {} texels", model_names(std::array{d.model})[0], d.width,
                        d.height)};
-  out.first.emplace_back(Prose{
-      fmt::format(
-          "`{}`: **{}** of the texels converged. {}", d.model,
-          percent(static_cast<double>(d.converged) / texels),
-          d.judged == 0 ? "Whether the model fits is not judged: the noise is not known."
-          : misfits(d)
-              ? fmt::format("**{}** are off by more than noise leaves: the model does not "
-                            "fit there, and intervals say little.",
-                            percent(static_cast<double>(d.misfit) / static_cast<double>(d.judged)))
-              : "The model is off by no more than noise leaves, as far as a sample of the "
-                "texels knows the noise."),
-      "verdict"});
+  out.first.emplace_back(
+      Prose{fmt::format("`{}`: **{}** of the texels converged. {}", d.model,
+                        percent(static_cast<double>(d.converged) / texels), verdict_of(d)),
+            "verdict"});
   out.first.emplace_back(Pairs{
       {{"texels", count_text(d.width * d.height)},
        {"not converged", d.not_converged ? count_text(d.not_converged) : ""},

@@ -56,6 +56,7 @@ TEST(Survey, SaysNothingOfAStackThatIsAsItSays) {
         SCOPED_TRACE(testing::Message() << seed << " " << static_cast<int>(noise) << " " << images);
         EXPECT_EQ(found.arrangement.what, "") << found.arrangement.ratio;
         EXPECT_EQ(found.better, "") << found.better_ratio;
+        EXPECT_FALSE(found.seeks_normals || found.tone);
         EXPECT_EQ(found.shared, 0);
         EXPECT_TRUE(found.odd.empty()) << found.odd[0].image << " " << found.odd[0].ratio;
         EXPECT_FALSE(std::isnan(found.noise.most));
@@ -78,6 +79,7 @@ TEST(Survey, SaysNothingOfRightStacksOfAnyModelNoiseAndNumberOfImages) {
           const auto found = survey(s.samples(), o);
           ++looked;
           const bool is_accused = found.shared > 0 || !found.odd.empty() || !found.better.empty() ||
+                                  found.seeks_normals || found.tone ||
                                   !found.arrangement.what.empty();
           accused += is_accused;
           if (is_accused)
@@ -183,6 +185,7 @@ TEST(Survey, NamesAModelThatFitsBetter) {
   for (unsigned seed = 1; seed <= few; ++seed) {
     const auto s = made_up(seed, Loud::relative, 64, "lambert+gtr/smith_ggx.correlated/schlick");
     EXPECT_NE(look(s, Metric::log).better, "") << seed;
+    EXPECT_FALSE(look(s, Metric::log).tone) << seed;
   }
 }
 
@@ -286,7 +289,7 @@ TEST(Survey, AsksForNormalsWhereTheSurfaceIsNotFlat) {
   const Folder f;
   const auto stack = waves(f);
   const auto found = survey(StackReader(stack), {});
-  EXPECT_EQ(found.better, "--refine-normals");
+  EXPECT_TRUE(found.seeks_normals);
   EXPECT_EQ(found.shared, 0);
   const auto lines = warnings_of(found, stack, "m");
   ASSERT_EQ(lines.size(), 1U);
@@ -331,43 +334,91 @@ TEST(Survey, SaysSoOfGentleBumpsAndWhereNormalsAreNotAskedForToo) {
     }
     const auto found = survey(StackReader(negated), o).arrangement;
     EXPECT_TRUE(found.sure) << refined << " " << found.ratio << " "
-                            << survey(StackReader(negated), o).better;
+                            << survey(StackReader(negated), o).seeks_normals;
     EXPECT_NE(found.what.find("negated"), found.what.npos) << found.what;
   }
 }
 
-TEST(Survey, KnowsFromManySquaresWhatFewDoNotTell) {
-  // Normals of a gentle height (a/k) sin kx cos ky with noise of half of what they change by within
-  // a square.
-  const auto looked_at = [](std::size_t squares, double mirrored, double height) {
-    std::mt19937 random(5);
-    std::normal_distribution<double> noise(0, 0.0025);
-    std::uniform_real_distribution<double> place(0, 500);
-    TexelSample s;
-    s.texels = 4 * squares;
-    s.block = 4;
-    TexelFit fit;
-    fit.normal.resize(3 * s.texels);
-    for (std::size_t q = 0; q < squares; ++q) {
-      const double x0 = place(random), y0 = place(random);
-      for (std::size_t k = 0; k < 4; ++k) {
-        const double x = 0.05 * (x0 + static_cast<double>(k % 2)),
-                     y = 0.05 * (y0 - static_cast<double>(k / 2));
-        const double p = height * std::cos(x) * std::cos(y) + noise(random),
-                     v = -height * std::sin(x) * std::sin(y) + noise(random);
-        const std::array<double, 3> n{-p, -mirrored * v, 1};
-        for (std::size_t a = 0; a < 3; ++a)
-          fit.normal[a * s.texels + 4 * q + k] = static_cast<float>(n[a]);
-      }
-    }
-    return arrangement_of_normals(s, fit);
-  };
-  EXPECT_FALSE(looked_at(64, -1, 0.1).sure) << "chance might do so";
-  const auto found = looked_at(1024, -1, 0.1);
+TEST(Survey, SaysWhetherAzimuthsCouldBeChecked) {
+  const Folder f;
+  TexelOptions refined;
+  refined.refine_normals = true;
+  EXPECT_EQ(survey(StackReader(waves(f)), refined).arrangement.azimuth,
+            AzimuthCheck::half_turn_open);
+  EXPECT_EQ(survey(StackReader(waves(f)), {}).arrangement.azimuth, AzimuthCheck::half_turn_open);
+  const Folder flat;
+  EXPECT_EQ(survey(StackReader(dome(flat, 20, 4, 0.02)), {}).arrangement.azimuth,
+            AzimuthCheck::open);
+  EXPECT_EQ(survey(StackReader(dome(flat, 20, 4, 0.02)), refined).arrangement.azimuth,
+            AzimuthCheck::open);
+  EXPECT_NE(words_of(AzimuthCheck::open).find("could not be checked"), std::string::npos);
+}
+
+TEST(Survey, FindsAnglesThatAreMeasuredFromThePlane) {
+  const Folder f;
+  auto stack = dome(f, 3, 24, 0.01);  // listed by their heights, as in reverse
+  for (auto& image : stack.images) {
+    auto& light = std::get<SideAngles<Side::light>>(image.light);
+    light.theta_deg = 90 - light.theta_deg;
+  }
+  const auto found = survey(StackReader(stack), {}).arrangement;
   EXPECT_TRUE(found.sure);
-  EXPECT_NE(found.what.find("negated"), found.what.npos) << found.what;
-  EXPECT_FALSE(looked_at(1024, 1, 0.1).sure);
-  EXPECT_FALSE(looked_at(1024, -1, 0).sure) << "of noise nothing follows";
+  EXPECT_NE(found.what.find("from the plane"), found.what.npos) << found.what;
+}
+
+TEST(Survey, SaysInWholeWhatToLookAtBeforeWhatToChange) {
+  const Folder f;
+  auto stack = waves(f);
+  for (auto& image : stack.images) {
+    auto& light = std::get<SideAngles<Side::light>>(image.light);
+    light.phi_deg = -light.phi_deg;
+  }
+  const auto text = refusal_of(survey(StackReader(stack), {}).arrangement);
+  EXPECT_EQ(text.find("…"), text.npos) << text;
+  const auto look = text.find("which side of a bump is bright");
+  ASSERT_NE(look, text.npos) << text;
+  EXPECT_LT(look, text.find("the right side: phi_i becomes −φ")) << text;
+  EXPECT_LT(look, text.find("the left side: phi_i becomes 180° − φ")) << text;
+}
+
+TEST(Survey, HearsTheTexelsThatTellAmongIndifferentOnes) {
+  // Two in three slope along x, which a mirror image leaves as they are.
+  const Folder f;
+  Image normals = without_normals();
+  for (std::size_t t = 0; t < map_width * map_height; ++t) {
+    const float slope = t / map_width % 2 ? 0.3F : -0.3F;
+    const bool tells = t % map_width % 3 == 0;
+    normals.planes[0].push_back(tells ? 0 : slope);
+    normals.planes[1].push_back(tells ? slope : 0);
+    normals.planes[2].push_back(std::sqrt(1 - 0.09F));
+  }
+  write_exr(f / "n.exr", normals);
+  auto stack = dome(f, 12, 5, 0.01, f / "n.exr");
+  EXPECT_EQ(survey(StackReader(stack), {}).arrangement.what, "");
+  for (auto& image : stack.images) {
+    auto& light = std::get<SideAngles<Side::light>>(image.light);
+    light.phi_deg = -light.phi_deg;
+  }
+  for (const bool refined : {false, true}) {
+    TexelOptions o;
+    o.refine_normals = refined;
+    const auto found = survey(StackReader(stack), o).arrangement;
+    EXPECT_TRUE(found.sure) << refined;
+    EXPECT_NE(found.what.find("negated"), found.what.npos) << found.what;
+  }
+}
+
+TEST(Survey, SaysThatAnAnisotropicModelNeedsNormals) {
+  const Folder f;
+  TexelOptions o;
+  o.model = "lambert+ggx_aniso/smith_ggx_aniso.correlated/schlick";
+  const auto stack = waves(f);
+  const auto lines = warnings_of(survey(StackReader(stack), o), stack, o.model);
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines.back().find("takes the surface for flat"), lines.back().npos) << lines.back();
+  const Folder flat;
+  const auto right = dome(flat, 12, 5, 0.01);
+  EXPECT_TRUE(warnings_of(survey(StackReader(right), o), right, o.model).empty());
 }
 
 TEST(Survey, NamesAllImagesThatWereExposedOtherwise) {
@@ -463,6 +514,7 @@ TEST(Survey, OfAStackOfFilesIsOfRowsAllOverItAlsoOfLightAndNormals) {
   EXPECT_GE(right.texels, 80U);
   EXPECT_EQ(right.arrangement.what, "") << right.arrangement.ratio;
   EXPECT_TRUE(warnings_of(right, read_stack(path), "m").empty());
+  EXPECT_EQ(right.arrangement.azimuth, AzimuthCheck::checked);
   // The normals of another convention, whose y points down.
   for (float& y : normals.planes[1]) y = -y;
   write_exr(f / "s/normals.exr", normals);
@@ -471,6 +523,10 @@ TEST(Survey, OfAStackOfFilesIsOfRowsAllOverItAlsoOfLightAndNormals) {
   EXPECT_NE(wrong.arrangement.what.find("normals' azimuth is negated"), std::string::npos)
       << wrong.arrangement.what;
   EXPECT_EQ(warnings_of(wrong, read_stack(path), "m").size(), 1U);
+  TexelOptions refined;
+  refined.refine_normals = true;
+  EXPECT_TRUE(survey(StackReader(read_stack(path)), refined).arrangement.sure)
+      << "refining hides it";
   // The right normals, and lamps by half a turn off: what lies in their shadow is dark all the
   // same.
   for (float& y : normals.planes[1]) y = -y;
