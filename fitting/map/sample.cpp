@@ -179,35 +179,50 @@ double rms_of_all(const std::vector<double>& all) {
 double shared_residuals(const TexelSample& s, const TexelFit& f, const TexelOptions& o) {
   const auto f_r = predicted(s, f, TexelTask(o, s.channels));
   const auto left = residual_deviations(f), least = residual_floor(f);
-  // Where an image has no value of one of the two, it is left out of both.
-  const auto of_image = [&](std::size_t i, std::size_t t, std::vector<double>& all) {
-    const auto d = differences(s, i, t, f_r, o.metric);
-    all.resize(s.channels, unknown);
-    if (d.size() == s.channels) std::ranges::copy(d, all.begin());
-  };
-  std::vector<double> shared, a, b;
+  // [image][channel][texel]; where an image lacks a channel of a texel, it is left out.
+  std::vector<double> residuals(s.values.size(), unknown), typical;
+  for (std::size_t i = 0; i < s.images; ++i)
+    for (std::size_t t = 0; t < s.texels; ++t)
+      if (const auto d = differences(s, i, t, f_r, o.metric); d.size() == s.channels)
+        for (std::size_t c = 0; c < s.channels; ++c)
+          residuals[(i * s.channels + c) * s.texels + t] = d[c];
+  for (std::size_t row = 0; row < s.images * s.channels; ++row) {
+    std::vector<double> sizes;
+    for (std::size_t t = 0; t < s.texels; ++t)
+      if (const double r = residuals[row * s.texels + t]; std::isfinite(r))
+        sizes.push_back(std::abs(r));
+    const double middle = median_of(std::move(sizes));
+    typical.push_back(middle > 0 ? middle : unknown);
+  }
+  // Of a few bright images that have nearly all of the noise chance makes neighbours alike, unless
+  // each image is compared with its own residuals.
+  std::vector<double> shared, shared_by_image;
   // Not of the same square: cameras and what registers images spread noise over neighbours.
   for (std::size_t t = 0; t + s.block < s.texels; ++t) {
     if (t / s.block % 2) continue;
     const std::size_t next = t + s.block;
-    double product = 0, first = 0, second = 0;
-    for (std::size_t i = 0; i < s.images; ++i) {
-      a.clear(), b.clear();
-      of_image(i, t, a), of_image(i, next, b);
-      for (std::size_t c = 0; c < s.channels; ++c)
-        if (std::isfinite(a[c]) && std::isfinite(b[c]))
-          product += a[c] * b[c], first += a[c] * a[c], second += b[c] * b[c];
-    }
     if (!(left[t] >= 0 && left[next] >= 0)) continue;
     const bool is_resolved = left[t] > least[t] && left[next] > least[next];
-    shared.push_back(is_resolved && product != 0 ? product / std::sqrt(first * second) : 0);
+    const auto part = [&](bool by_image) {
+      double product = 0, first = 0, second = 0;
+      for (std::size_t row = 0; row < typical.size(); ++row) {
+        const double unit = by_image ? typical[row] : 1, a = residuals[row * s.texels + t] / unit,
+                     b = residuals[row * s.texels + next] / unit;
+        if (std::isfinite(a) && std::isfinite(b)) product += a * b, first += a * a, second += b * b;
+      }
+      return is_resolved && product != 0 ? product / std::sqrt(first * second) : 0;
+    };
+    shared.push_back(part(false));
+    shared_by_image.push_back(std::abs(part(true)));
   }
-  constexpr double chance = 0.35, chance_of_quarter = 0.55;
+  constexpr double chance = 0.35, chance_of_quarter = 0.7;
+  constexpr std::size_t enough_images = 20;
   if (2 * shared.size() < few_texels) return 0;
   if (const double part = median_of(shared); part > chance) return part;
-  // Where half of a surface fits, and where bumps change the sign of what is left.
-  for (double& part : shared) part = std::abs(part);
-  const double part = quantile(shared, 0.75);
+  // Where half of a surface fits, and where bumps change the sign of what is left.  Of few images
+  // the noise of one or two decides on all residuals, and neighbours are alike but for the sign.
+  if (!s.of_light || s.images < enough_images) return 0;
+  const double part = quantile(shared_by_image, 0.75);
   return part > chance_of_quarter ? part : 0;
 }
 

@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "base/text.h"
 #include "cli/program.h"
 #include "image/exr.h"
 
@@ -90,13 +91,35 @@ TEST(FitMapCommand, StopsBeforeItFitsDirectionsThatAreNotTheImagesOwn) {
   negate_lights(f);
   for (const char* more : {"", " --tile 0,0"}) {
     const auto o = gonio(f, std::string("fit_map s/stack.json -o maps.exr") + more);
-    expect_one_line(o, 3, "s/stack.json: directions");
+    EXPECT_EQ(o.code, 3);
+    EXPECT_EQ(o.out, "");
+    EXPECT_TRUE(o.err.starts_with("gonio: s/stack.json: directions: ")) << o.err;
+    EXPECT_EQ(o.err.find("…"), o.err.npos) << "cut short: " << o.err;
+    for (const auto& line : split(o.err, '\n')) EXPECT_LE(line.size(), 180U) << line;
     EXPECT_NE(o.err.find("phi_i becomes −φ"), o.err.npos) << o.err;
     EXPECT_FALSE(fs::exists(f / "maps.exr"));
   }
   const auto o = gonio(f, "fit_map s/stack.json -o maps.exr --as-given --json");
   ASSERT_EQ(o.code, 0) << o.err;
   EXPECT_NE(o.json()["warnings"][0].get<std::string>().find("azimuth is negated"), o.out.npos);
+}
+
+TEST(FitMapCommand, SaysWhereAnAzimuthCouldNotBeChecked) {
+  const Folder f;
+  f.write("lamps.csv",
+          "theta_i,phi_i,theta_o,phi_o\n10,0,0,0\n20,70,0,0\n30,140,0,0\n40,210,0,0\n50,280,0,0\n"
+          "60,350,0,0\n25,60,0,0\n35,130,0,0\n45,200,0,0\n55,270,0,0\n");
+  ASSERT_EQ(gonio(f, std::string("synth ") + paint +
+                         " --layout map --size 24 --noise 0.01 --directions lamps.csv -o flat/")
+                .code,
+            0);
+  const auto o = gonio(f, "fit_map flat/stack.json -o maps.exr --html m.html");
+  EXPECT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("azimuth could not be checked on this surface"), o.out.npos) << o.out;
+  const std::string page = read_bytes(f / "m.html");
+  EXPECT_NE(page.find("azimuth could not be checked on this surface"), page.npos);
+  EXPECT_EQ(page.find("no more than noise leaves"), page.npos) << "praise";
+  EXPECT_EQ(gonio(f, "fit_map flat/stack.json -o maps.exr --json").json()["azimuth"], "open");
 }
 
 TEST(FitMapCommand, EndsWithExitCodeFourWhereMostTexelsDoNotConverge) {

@@ -353,43 +353,60 @@ TEST(Texels, FitTheNormalThatTheirHighlightsTell) {
   EXPECT_GT(kept.rms[39], 10 * f.rms[39]);
 }
 
-TEST(Texels, FindNormalsFarFromTheMapsOwnUnderRoughSurfaces) {
+/// A stack of one channel seen from above under lamps, black so far.
+Stack under_lamps(const std::string& model,
+                  std::size_t texels,
+                  const std::vector<Direction>& lamps) {
   StackOptions made;
-  made.model = "oren_nayar";
-  made.texels = 90;
+  made.model = model;
+  made.texels = texels;
   made.channels = 1;
   Stack s = test::stack(made);
-  s.images = 8;
-  s.light.resize(24);
-  s.view.resize(24);
-  s.values.assign(8 * s.texels, 0);
-  const auto rough = bind_model("oren_nayar", {{"kd", {0.5}}, {"sigma", {0.3}}}, 1);
-  const auto lamp = [](std::size_t i) {
-    return direction(50 * degree, 45 * degree * static_cast<double>(i));
-  };
-  for (std::size_t i = 0; i < 8; ++i) {
-    const Direction l = lamp(i);
-    const std::array xyz{l.x, l.y, l.z};
-    for (std::size_t k = 0; k < 3; ++k) {
-      s.light[3 * i + k] = static_cast<float>(xyz[k]);
-      s.view[3 * i + k] = k == 2;
-    }
+  s.images = lamps.size();
+  s.light.clear();
+  s.view.clear();
+  s.values.assign(lamps.size() * texels, 0);
+  for (const Direction& l : lamps) {
+    for (const double x : {l.x, l.y, l.z}) s.light.push_back(static_cast<float>(x));
+    for (const float x : {0.0F, 0.0F, 1.0F}) s.view.push_back(x);
   }
+  return s;
+}
+
+std::vector<Direction> ring(std::size_t lamps, double theta_deg) {
+  std::vector<Direction> all;
+  for (std::size_t i = 0; i < lamps; ++i)
+    all.push_back(direction(theta_deg * degree,
+                            360 * degree * static_cast<double>(i) / static_cast<double>(lamps)));
+  return all;
+}
+
+/// Light from `l` that a surface of normal z sends upwards.
+double light_of(const BoundModel& surface, const Direction& z, const Direction& l) {
+  if (dot(l, z) <= 0) return 0;
+  const Frame frame(z);
+  const std::vector a{frame_angles({frame.inside(l), frame.inside(Direction{0, 0, 1})})};
+  return evaluate(surface, a)[0][0] * dot(l, z);
+}
+
+/// Angle between a normal that was fitted and the right one.
+double angle_to(const Direction& right, const TexelFit& f, std::size_t t) {
+  const std::size_t run = f.rms.size();
+  const Direction n{double{f.normal[t]}, double{f.normal[run + t]}, double{f.normal[2 * run + t]}};
+  return std::acos(std::min(dot(n, right), 1.0));
+}
+
+TEST(Texels, FindNormalsFarFromTheMapsOwnUnderRoughSurfaces) {
+  const auto lamps = ring(8, 50);
+  Stack s = under_lamps("oren_nayar", 90, lamps);
+  const auto rough = bind_model("oren_nayar", {{"kd", {0.5}}, {"sigma", {0.3}}}, 1);
   std::vector<Direction> normals;
   for (std::size_t t = 0; t < s.texels; ++t) {
     const auto part = static_cast<double>(t) / static_cast<double>(s.texels);
     const Direction z = normals.emplace_back(direction((10 + 35 * part) * degree, 11 * part));
-    for (std::size_t i = 0; i < 8; ++i) {
-      const Direction l = lamp(i), v{0, 0, 1};
-      if (dot(l, z) <= 0) continue;
-      const double across = std::hypot(z.y, z.z);
-      const Direction x{across, -z.x * z.y / across, -z.x * z.z / across};
-      const Direction y{z.y * x.z - z.z * x.y, z.z * x.x - z.x * x.z, z.x * x.y - z.y * x.x};
-      const std::vector a{frame_angles({Direction{dot(l, x), dot(l, y), dot(l, z)},
-                                        Direction{dot(v, x), dot(v, y), dot(v, z)}})};
+    for (std::size_t i = 0; i < lamps.size(); ++i)
       s.values[i * s.texels + t] =
-          static_cast<float>(evaluate(rough, a)[0][0] * dot(l, z) / std::cos(50 * degree));
-    }
+          static_cast<float>(light_of(rough, z, lamps[i]) / std::cos(50 * degree));
   }
   TexelOptions o = options("oren_nayar");
   o.refine_normals = true;
@@ -397,9 +414,7 @@ TEST(Texels, FindNormalsFarFromTheMapsOwnUnderRoughSurfaces) {
     const TexelFit f = fit_texels(s.samples(), o);
     std::size_t count = 0;
     for (std::size_t t = 0; t < s.texels; ++t) {
-      const Direction n{double{f.normal[t]}, double{f.normal[s.texels + t]},
-                        double{f.normal[2 * s.texels + t]}};
-      count += std::acos(std::min(dot(n, normals[t]), 1.0)) < 0.2 * degree &&
+      count += angle_to(normals[t], f, t) < 0.2 * degree &&
                std::abs(double{f.columns[0].value[t]} - 0.5) < 0.01;
     }
     return count;
@@ -413,25 +428,11 @@ TEST(Texels, FindNormalsFarFromTheMapsOwnUnderRoughSurfaces) {
 }
 
 TEST(Texels, FindNormalsUnderHighlightsThatFewLampsSee) {
-  StackOptions made;
-  made.texels = 200;
-  made.channels = 1;
-  Stack s = test::stack(made);
-  constexpr std::size_t lamps = 24;
-  s.images = lamps;
-  s.light.assign(3 * lamps, 0);
-  s.view.assign(3 * lamps, 0);
-  s.values.assign(lamps * s.texels, 0);
-  std::vector<Direction> l;
-  for (std::size_t i = 0; i < lamps; ++i) {  // a spiral down to 65°
-    const auto k = static_cast<double>(i);
-    l.push_back(direction((10 + 55 * std::sqrt(k / lamps)) * degree, 2.4 * k));
-    const std::array xyz{l[i].x, l[i].y, l[i].z};
-    for (std::size_t a = 0; a < 3; ++a) {
-      s.light[3 * i + a] = static_cast<float>(xyz[a]);
-      s.view[3 * i + a] = a == 2;
-    }
-  }
+  const std::string model = "lambert+ggx/smith_ggx.correlated/schlick";
+  std::vector<Direction> lamps;
+  for (double k = 0; k < 24; ++k)  // a spiral down to 65°
+    lamps.push_back(direction((10 + 55 * std::sqrt(k / 24)) * degree, 2.4 * k));
+  Stack s = under_lamps(model, 200, lamps);
   std::vector<Direction> normals;
   std::mt19937 random(1);
   std::normal_distribution<double> noise;
@@ -439,58 +440,35 @@ TEST(Texels, FindNormalsUnderHighlightsThatFewLampsSee) {
     const auto part = static_cast<double>(t) / static_cast<double>(s.texels);
     const Direction z = normals.emplace_back(direction((5 + 15 * part) * degree, 11 * part));
     // Black and glossy: nearly all light is the highlight's.
-    const auto paint = bind_model(
-        made.model, {{"kd", {0.02}}, {"alpha", {0.12 + 0.15 * part}}, {"f0", {0.04}}}, 1);
-    for (std::size_t i = 0; i < lamps; ++i) {
-      const Direction v{0, 0, 1};
-      const Frame frame(z);
-      const std::vector a{frame_angles({frame.inside(l[i]), frame.inside(v)})};
-      const double light = evaluate(paint, a)[0][0] * dot(l[i], z) * (1 + 0.005 * noise(random));
-      s.values[i * s.texels + t] = static_cast<float>(light / l[i].z);
-    }
+    const auto paint =
+        bind_model(model, {{"kd", {0.02}}, {"alpha", {0.12 + 0.15 * part}}, {"f0", {0.04}}}, 1);
+    for (std::size_t i = 0; i < lamps.size(); ++i)
+      s.values[i * s.texels + t] = static_cast<float>(light_of(paint, z, lamps[i]) *
+                                                      (1 + 0.005 * noise(random)) / lamps[i].z);
   }
-  TexelOptions o = options(made.model);
+  TexelOptions o = options(model);
   o.refine_normals = true;
   const TexelFit f = fit_texels(s.samples(), o);
   std::size_t right = 0;
-  for (std::size_t t = 0; t < s.texels; ++t) {
-    const Direction n{double{f.normal[t]}, double{f.normal[s.texels + t]},
-                      double{f.normal[2 * s.texels + t]}};
-    right += std::acos(std::min(dot(n, normals[t]), 1.0)) < 2 * degree;
-  }
+  for (std::size_t t = 0; t < s.texels; ++t) right += angle_to(normals[t], f, t) < 2 * degree;
   EXPECT_GE(right, s.texels * 97 / 100);
 }
 
 TEST(Texels, OfNormalsThatAreFittedLeaveOutWhatMayBeAttachedShadow) {
-  StackOptions made;
-  made.model = "lambert";
-  made.texels = 96;
-  made.channels = 1;
-  Stack s = test::stack(made);
   // Six lamps 40° from the map's normal; surfaces tilted by 50° to 82° turn from one to three of
   // them, the last one from all but two.
-  s.images = 6;
-  s.light.resize(18);
-  s.view.resize(18);
-  s.values.assign(6 * s.texels, 0);
+  const auto lamps = ring(6, 40);
+  Stack s = under_lamps("lambert", 96, lamps);
+  const auto matt = bind_model("lambert", {{"kd", {0.5}}}, 1);
   std::vector<Direction> normals;
-  for (std::size_t i = 0; i < 6; ++i) {
-    const Direction l = direction(40 * degree, 60 * degree * static_cast<double>(i));
-    const std::array xyz{l.x, l.y, l.z};
-    for (std::size_t k = 0; k < 3; ++k) {
-      s.light[3 * i + k] = static_cast<float>(xyz[k]);
-      s.view[3 * i + k] = k == 2;
-    }
-  }
   std::size_t shadows = 0;
   for (std::size_t t = 0; t < s.texels; ++t) {
     const auto part = static_cast<double>(t) / static_cast<double>(s.texels);
     const Direction z = normals.emplace_back(direction((50 + 32 * part) * degree, 7 * part));
-    for (std::size_t i = 0; i < 6; ++i) {
-      const Direction l = direction(40 * degree, 60 * degree * static_cast<double>(i));
-      shadows += dot(l, z) <= 0;
+    for (std::size_t i = 0; i < lamps.size(); ++i) {
+      shadows += dot(lamps[i], z) <= 0;
       s.values[i * s.texels + t] =
-          static_cast<float>(0.5 / M_PI * std::max(dot(l, z), 0.0) / std::cos(40 * degree));
+          static_cast<float>(light_of(matt, z, lamps[i]) / std::cos(40 * degree));
     }
   }
   EXPECT_GT(shadows, s.texels);
@@ -502,9 +480,7 @@ TEST(Texels, OfNormalsThatAreFittedLeaveOutWhatMayBeAttachedShadow) {
   const TexelFit f = fit_texels(s.samples(), o);
   EXPECT_TRUE(std::isnan(f.normal[last]) && std::isnan(f.columns[0].value[last]));
   for (std::size_t t = 0; t < last; ++t) {
-    const Direction n{double{f.normal[t]}, double{f.normal[s.texels + t]},
-                      double{f.normal[2 * s.texels + t]}};
-    EXPECT_LT(std::acos(std::min(dot(n, normals[t]), 1.0)), 0.1 * degree) << t;
+    EXPECT_LT(angle_to(normals[t], f, t), 0.1 * degree) << t;
     EXPECT_NEAR(double{f.columns[0].value[t]}, 0.5, 1e-3) << t;
   }
 }
