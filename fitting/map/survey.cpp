@@ -461,7 +461,8 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
       lines.push_back(
           fmt::format("the photographs seem to hold light of the room, about {:.0f} % of "
                       "what they have on average: {}. Subtract a photograph taken with all "
-                      "lamps off from each, and see that they are linear",
+                      "lamps off from each, see that they are linear, and leave out cast "
+                      "shadows by --floor",
                       100 * t->room, less));
     else
       lines.push_back(
