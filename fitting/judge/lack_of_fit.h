@@ -46,7 +46,7 @@ struct LackOfFit {
 /// the scatter within it.  A thinned table is enough: of millions of values everything is significant.
 ///
 /// Of many samples only that their errors are independent is assumed [Hotelling's T² of the scores, as
-/// the intervals' sandwich], of few that they are of one of three sizes [an F test, find_variances()].
+/// the intervals' sandwich], of few that they are of one size in f or in proportion to it [an F test].
 /// Where the angles of a measured table scatter more than the values within them, the scale of each angle is left
 /// open: of incident angles, outgoing angles, azimuths or places of light and detector, and of two of these at most.
 /// From 8 angles on their sums are judged, too.  A robust fit then clips beside those scales, and what they do to the

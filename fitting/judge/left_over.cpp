@@ -223,20 +223,16 @@ bool find_variances(Left& left) {
   }
   static constexpr double largest =
       1e150;  // whose square is finite: f may be next to nothing, or 0
-  enum Noise : std::size_t { of_one_size, relative, to_grazing, kinds };
-  const auto sigma = [&](const Value& v, std::size_t kind) {
-    constexpr std::size_t product = 8;  // of the functions: NoL NoV
-    const double grazing =
-        kind == to_grazing ? std::max(left.units[v.unit].functions[product], 1e-3) : 1;
-    return std::clamp(v.slope * (kind == of_one_size ? 1 : v.f) / grazing, 1 / largest, largest);
+  const auto sigma = [](const Value& v, std::size_t relative) {
+    return std::clamp(v.slope * (relative ? v.f : 1), 1 / largest, largest);
   };
   const double n = left.samples;
-  const auto badness = [&](std::size_t kind) {
+  const auto badness = [&](std::size_t relative) {
     double logs = 0, squares = 0;
     std::vector<double> sizes;
     for (const auto& v : left.values) {
-      const double root = v.whole / sigma(v, kind);
-      logs += 2 * v.root_count * v.root_count * std::log(sigma(v, kind));
+      const double root = v.whole / sigma(v, relative);
+      logs += 2 * v.root_count * v.root_count * std::log(sigma(v, relative));
       squares += root * root;
       if (left.robust) sizes.push_back(std::abs(root));
     }
@@ -246,12 +242,9 @@ bool find_variances(Left& left) {
     for (const double size : sizes) logs += 2 * std::log(scale + size / scale * size);
     return logs - n * std::log(scale * scale);
   };
-  std::size_t kind = relative;
-  double least = badness(relative);
-  for (const std::size_t other : {of_one_size, to_grazing})
-    if (const double bad = badness(other); bad < least) least = bad, kind = other;
-  for (auto& v : left.values) v.variance = sigma(v, kind) * sigma(v, kind);
-  return kind != of_one_size;
+  const bool relative = !(badness(0) < badness(1));
+  for (auto& v : left.values) v.variance = sigma(v, relative) * sigma(v, relative);
+  return relative;
 }
 
 std::optional<MisfitCell> worst_cell(const Left& left) {

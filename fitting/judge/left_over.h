@@ -86,9 +86,9 @@ struct Left {
 /// A parameter at a bound can take nothing up: it is no unknown here.
 Left left_over(const Sampling&, const Problem&, const Fitted&, TableFacts&);
 
-/// Noise is taken as the likeliest of three: of one size in f, in proportion to f, or to f / (NoL NoV), as at grazing angles; normal,
-/// or Cauchy's for a robust fit, before anything is clipped.  Where the table states it, it is that.
-/// \return  whether in proportion to f
+/// Noise is taken as the likelier of two: of one size in f, or in proportion to f; normal, or Cauchy's
+/// for a robust fit, before anything is clipped.  Where the table states it, it is that.
+/// \return  whether in proportion
 bool find_variances(Left&);
 
 /// Cell that is furthest off for certain: by its mean less two standard errors.

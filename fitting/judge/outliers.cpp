@@ -44,13 +44,14 @@ double alone(std::span<const Placed> all, std::size_t i, double sigma) {
   const auto by_distance = [&](std::size_t k) { return distance(all[k], all[i]); };
   std::ranges::nth_element(near.begin() + 1, near.begin() + around, near.end(), {}, by_distance);
   near.resize(around + 1);
-  std::array<int, 3> beyond{};
+  constexpr double retro = 10 * degree;  // where a highlight at wo = wi lies alone, too
+  if (all[i].theta_d < retro) return 0;
+  std::array<int, 2> beyond{};
   std::vector<double> off;
   for (const std::size_t k : std::span(near).subspan(1)) {
     off.push_back(all[k].off);
     beyond[0] += all[k].theta_h <= all[i].theta_h;
     beyond[1] += all[k].grazing <= all[i].grazing;
-    beyond[2] += all[k].theta_d < all[i].theta_d;  // a highlight at wo = wi has none
   }
   constexpr int some = 2;
   if (std::ranges::min(beyond) < some) return 0;
