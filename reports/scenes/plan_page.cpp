@@ -325,7 +325,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                    : fmt::format("The plan, at {} ns, is none of them.", significant(m.ns));
       s.parts.emplace_back(Prose{
           by_time ? which + " Times within their spread count as the same, and among such sets the "
-                            "plan keeps the fewest effects, then takes the fewest operations."
+                            "plan takes the fewest operations, then keeps the fewest effects."
                   : "The plan is none of them: among sets of as many operations it keeps the "
                     "fewest effects.",
           "small"});

@@ -301,7 +301,7 @@ class MaterialPlanner {
   }
   double spread(const Candidate& c) const { return options_.cost == Cost::time ? c.spread() : 0; }
 
-  /// Those that may keep the tolerance, best first: the cheapest, and before it those as cheap that keep fewer effects.
+  /// Those that may keep the tolerance, best first: the cheapest, and before it those as cheap of fewer operations, or effects.
   std::vector<const Candidate*> in_order() const {
     std::vector<const Candidate*> left, order;
     for (const auto& c : candidates_)
@@ -314,8 +314,8 @@ class MaterialPlanner {
       const double most = counted_cost(*left[0]) + spread(*left[0]);
       const auto end = std::ranges::find_if(left, [&](auto* c) { return counted_cost(*c) > most; });
       const auto best = std::min_element(left.begin(), end, [&](auto* a, auto* b) {
-        return std::tuple(a->kept(), a->ops, a->forms.form) <
-               std::tuple(b->kept(), b->ops, b->forms.form);
+        return std::tuple(a->ops, a->kept(), a->forms.form) <
+               std::tuple(b->ops, b->kept(), b->forms.form);
       });
       order.push_back(*best);
       left.erase(best);

@@ -103,7 +103,7 @@ struct MaterialPlan {
   /// True where it keeps light between facets as a table, which no shader has.
   bool needs_table() const;
   /// True where no light comes to any of its points, so that every set of forms looks the same.
-  bool is_unlit() const { return directions == 0; }
+  bool is_unlit() const { return directions == 0 && checked.worst == 0; }
 };
 /// "Kulla and Conty's lobe", by the form's name: what a plan without bound is compared with.
 std::string reference_in_words(std::string_view form);
@@ -150,8 +150,8 @@ std::size_t points_of_plan(const Scene&, std::size_t samples);
 ///   3  of the others, every form that keeps the tolerance while all else is exact is a candidate's; candidates are their
 ///      combinations, at most 512.  Those that look an environment up are compared with 1024 directions a point.  Errors may
 ///      cancel: of at most 512 sets of any forms that shaders have, those that keep the tolerance are candidates, too
-///   4  the cheapest that these points do not rule out, ties within the spread of times going to fewer effects and then to fewer
-///      operations, is checked on fresh points, strictly enough that fresh ones of a verification are likely to agree; where its
+///   4  the cheapest that these points do not rule out, ties within the spread of times going to fewer operations and then to fewer
+///      effects, is checked on fresh points, strictly enough that fresh ones of a verification are likely to agree; where its
 ///      share beyond the limit is so near to what may be that they do not decide, up to 16 times as many are drawn; if it fails
 ///      the next is taken; if all do, the first that still holds on these points; if none does, only what changes no point by a
 ///      hundredth of the limit is dropped
