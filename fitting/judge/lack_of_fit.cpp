@@ -195,6 +195,13 @@ struct Tests {
   struct One {
     Regression regression;
     bool clustered;
+    std::size_t apart = 0;  ///< of so many of channels apart; 0: of all alike
+
+    /// Probability by chance that one of all tests shows as much.  A tenth of the chance is left to channels apart, which seldom differ.
+    double p_of(std::size_t alike) const {
+      constexpr std::size_t tenth = 10;
+      return std::min(1.0, regression.p * static_cast<double>(apart ? tenth * apart : alike));
+    }
   };
   std::vector<One> all;
   std::vector<Scales::Scaled> scaled;
@@ -211,7 +218,8 @@ Tests test(const Left& left, bool measured, bool by_angle) {
     constexpr std::size_t most_apart = 4;
     if (is_first && left.unknowns.size() > 1 && left.unknowns.size() <= most_apart)
       for (std::size_t c = 0; c < left.unknowns.size(); ++c)
-        t.all.push_back({regress(left, gains, clustered, false, c), clustered.has_value()});
+        t.all.push_back({regress(left, gains, clustered, false, c), clustered.has_value(),
+                         left.unknowns.size()});
   };
   if (!measured) return add({}, {}), t;
   const auto incident = number_of_angles(left, SharedAngle::incident);
@@ -310,15 +318,20 @@ LackOfFit lack_of_fit(
   const double more = std::max(1.0, samples_used / left.samples);
   double excess = 0;
   const Regression* likeliest = nullptr;
-  for (const auto& [r, clustered] : tests.all) {
-    if (!r.tested) continue;
-    if (!likeliest || r.p < likeliest->p) likeliest = &r;
+  const auto alike =
+      static_cast<std::size_t>(std::ranges::count(tests.all, 0U, &Tests::One::apart));
+  double least = 1;
+  for (const auto& one : tests.all) {
+    const auto& [r, clustered, apart] = one;
+    const double p = one.p_of(alike);
+    if (!r.tested || (apart && !(p < significant))) continue;
+    if (!likeliest || p < least) likeliest = &r, least = p;
     m.size = m.tested ? std::max(m.size, r.size) : r.size;
     m.tested = true;
     if (r.noise > 0) excess = std::max(excess, r.excess / r.noise * (clustered ? 1 : more));
   }
   if (m.tested) {
-    m.p = std::min(1.0, likeliest->p * static_cast<double>(tests.all.size()));
+    m.p = least;
     m.told = m.p < significant && m.size > likeliest->rounding &&
              (m.size > worth_telling || excess > of_an_interval);
   }
