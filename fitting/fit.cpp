@@ -58,7 +58,7 @@ std::string without_outliers(const Problem& p,
   std::string words;
   double most = shows;
   for (const auto& q : p.start.model.parameters)
-    for (std::size_t c = 0; l.outliers && c < q.count; ++c) {
+    for (std::size_t c = 0; !l.moved_by_outliers.empty() && c < q.count; ++c) {
       const std::size_t slot = q.first + c;
       if (!p.free.mask()[slot]) continue;
       const std::size_t i = p.free.index(slot);
@@ -281,7 +281,7 @@ FitResult fit_and_judge(const Table& t,
   if (beside) d.residuals.chi2_per_freedom = beside->chi2_per_freedom;
   d.uncertainty = t.errors.empty() ? "none" : "stated";
   d.misfit = lack.misfit;
-  if (lack.outliers) d.misfit.outliers = lack.outliers->values;
+  if (lack.outliers && !lack.outliers->retro) d.misfit.outliers = lack.outliers->values;
   d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");
   auto without_lobes = needless ? take_diffuse_alone(d, t, o, columns) : std::nullopt;

@@ -276,8 +276,11 @@ LackOfFit lack_of_fit(
   Misfit& m = found.misfit;
   bool by_logarithms = s.metric() == Metric::log;
   Left left = left_over(s, p, f, facts);
-  if (!p.options.robust && p.free.size() > 0)
-    if (const auto alone = outliers(left)) {
+  const auto alone =
+      !p.options.robust && p.free.size() > 0 ? outliers(left) : std::optional<Outliers>();
+  if (alone) {
+    found.outliers = alone;
+    if (!alone->retro) {
       FitOptions options = p.options;
       options.robust = true;
       const Problem robust{options, p.start, p.free, p.bounds, p.narrowed, p.offset, p.rounding};
@@ -291,6 +294,7 @@ LackOfFit lack_of_fit(
       for (std::size_t i = 0; i < without.size(); ++i) found.moved_by_outliers[i] -= without[i];
       return found;
     }
+  }
   if (!s.table().truth) found.odd_angle = odd_angle(left, s);
   std::vector<double> residuals;
   for (const auto& v : left.values) residuals.push_back(v.r);
@@ -342,6 +346,11 @@ LackOfFit lack_of_fit(
     m.told = true;
     m.p = std::min(m.tested ? m.p : 1.0, first.p_beside_noise);
     excess = std::max(excess, 1 - 1 / first.beside_noise);
+  }
+  if (alone) {  // a highlight that gains of angles may take up
+    m.told = true;
+    m.p = std::min(m.tested ? m.p : 1.0, surely);
+    excess = std::max(excess, 1 - first.left / std::max(mean_square(left), first.left));
   }
   const double most_of_scales = tests.are_a_models ? worth_telling : most_of_a_scale;
   if (tests.p_of_scales < surely && tests.of_scales > most_of_scales * most_of_scales) {
@@ -404,7 +413,7 @@ double with_gains(const LackOfFit& l, std::size_t i, double error, double& freed
     by_freedom += own * own / gains.freedom;
   }
   if (variance > 0) freedom = variance * variance / by_freedom;
-  return std::hypot(std::sqrt(variance), l.outliers ? l.moved_by_outliers[i] : 0);
+  return std::hypot(std::sqrt(variance), l.moved_by_outliers.empty() ? 0 : l.moved_by_outliers[i]);
 }
 
 void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_against) {
@@ -412,7 +421,7 @@ void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_agai
     double& e = u[i].std_error;
     if (std::isnan(e)) continue;
     double wider = widened(e, l.widening, seen_against[i]);
-    if (!l.gains.empty() || l.outliers) {
+    if (!l.gains.empty() || !l.moved_by_outliers.empty()) {
       wider = with_gains(l, i, wider, u[i].freedom);
       u[i].t = students_t_quantile(0.975, std::max(1.0, u[i].freedom));
     }

@@ -35,7 +35,7 @@ struct LackOfFit {
     std::vector<double> std_error;  ///< what they make of each free parameter's
   };
   std::vector<SharedGains> gains = {};
-  std::optional<Outliers> outliers = {};
+  std::optional<Outliers> outliers = {};  ///< or a highlight at wo = wi, which is a misfit
   /// Free parameters less those of a robust fit, which follows outliers less.
   std::vector<double> moved_by_outliers = {};
 };

@@ -196,7 +196,10 @@ std::vector<std::string> next_steps(const FitOptions& o,
       if (is_alpha(p.name) && p.status[0] != ParameterStatus::fixed && p.value[0] > 0)
         steps.add(fmt::format("--bounds {}={:.2g},{:.2g} may let the solver end", p.name,
                               std::max(p.value[0] / 4, 1e-4), std::min(4 * p.value[0], 1.0)));
-  if (f.outliers) steps.add("--robust huber gives outliers less weight" + f.without_outliers);
+  if (f.outliers && !f.outliers->retro)
+    steps.add("--robust huber gives outliers less weight" + f.without_outliers);
+  if (f.outliers && f.outliers->retro && !f.retro)
+    steps.add("--mask 'retro < 15': no microfacet model has a highlight at wo = wi");
   if (o.copies && f.copies)
     steps.add("fit without --copies keep: angles that only repeat another are no measurements");
   const auto unknown = unknown_lobe(d);

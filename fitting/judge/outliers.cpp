@@ -44,8 +44,6 @@ double alone(std::span<const Placed> all, std::size_t i, double sigma) {
   const auto by_distance = [&](std::size_t k) { return distance(all[k], all[i]); };
   std::ranges::nth_element(near.begin() + 1, near.begin() + around, near.end(), {}, by_distance);
   near.resize(around + 1);
-  constexpr double retro = 10 * degree;  // where a highlight at wo = wi lies alone, too
-  if (all[i].theta_d < retro) return 0;
   std::array<int, 2> beyond{};
   std::vector<double> off;
   for (const std::size_t k : std::span(near).subspan(1)) {
@@ -87,7 +85,7 @@ std::optional<Outliers> outliers(const Left& left) {
         far.push_back({c, i});
   // Each costs one pass over its channel: of many some are asked, and speak for the others.
   const std::size_t step = far.size() / most_asked + 1;
-  double of_them = 0, farthest = 0;
+  double of_them = 0, farthest = 0, of_retro = 0;
   std::vector<double> factors;
   Outliers found{};
   for (std::size_t k = 0; k < far.size(); k += step) {
@@ -96,6 +94,9 @@ std::optional<Outliers> outliers(const Left& left) {
     if (by == 0) continue;
     const Value& v = left.values[number[c][i]];
     of_them += static_cast<double>(step) * v.whole * v.whole;
+    constexpr double near = 10 * degree;
+    if (placed[c][i].theta_d < near && by > 0)
+      of_retro += static_cast<double>(step) * v.whole * v.whole;
     factors.push_back(std::abs(by));
     if (std::abs(by) > farthest) farthest = std::abs(by), found.farthest = v.sample;
   }
@@ -103,6 +104,8 @@ std::optional<Outliers> outliers(const Left& left) {
   found.share = static_cast<double>(found.values) / static_cast<double>(all.size());
   if (found.values == 0 || found.share > few || of_them < most_squares * squares) return {};
   found.typical = std::exp(median(factors));
+  constexpr std::size_t some = 4;
+  found.retro = 2 * of_retro > of_them && found.values >= some;
   return found;
 }
 

@@ -15,6 +15,8 @@ struct Outliers {
   double share;          ///< of those
   double typical;        ///< median factor between them and what those around them say, above 1
   std::size_t farthest;  ///< sample of the table
+  bool retro =
+      false;  ///< whether most of them are bright ones near wo = wi: then they are a highlight
 };
 
 namespace misfit {

@@ -75,7 +75,8 @@ double dark_bias(const FitOptions& o, const FitDocument& d, TableFacts& table) {
   if (o.metric != Metric::log || o.robust || table.table().truth) return 0;
   const double sigma = greatest_noise(table.noise()), bias = sigma * sigma / 2;
   constexpr double least = 0.01, little = 0.5;  // of a value, of half an interval
-  if (!(bias > least)) return 0;
+  constexpr double most = 0.5;                  // more is no noise
+  if (!(bias > least && bias < most)) return 0;
   for (const auto& p : d.parameters)
     if (p.name.starts_with("kd"))
       for (std::size_t c = 0; c < p.value.size(); ++c)
@@ -109,7 +110,13 @@ std::vector<std::string> warnings(const FitOptions& o,
                                   const FitDocument& d,
                                   const FitFacts& f) {
   std::vector<std::string> all;
-  if (const auto& alone = f.outliers) {
+  if (const auto& alone = f.outliers; alone && alone->retro) {
+    all.push_back(fmt::format(
+        "about {} near wo = wi {} brighter than those around {}, typically by a factor of {}: a "
+        "highlight that the model lacks",
+        counted(alone->values, "value"), alone->values == 1 ? "is" : "are",
+        alone->values == 1 ? "it" : "them", typical_factor(std::log(alone->typical))));
+  } else if (alone) {
     all.push_back(fmt::format(
         "about {} ({}) {} off those around {}, typically by a factor of {}: outliers, which the "
         "fit follows",

@@ -3,6 +3,7 @@
 #include "fitting/judge/outliers.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "fitting/fit.h"
 #include "fitting/support.h"
@@ -72,6 +73,22 @@ TEST(Outliers, AreNotWhatAWrongModelMisses) {
       EXPECT_TRUE(d.misfit.told) << truth;
       EXPECT_FALSE(proposes_huber(d)) << truth << ", noise " << noise;
     }
+}
+
+TEST(Outliers, AreAHighlightWhereTheyStandWhereTheLightComesFrom) {
+  Table t = hemisphere(right, settings, 0.01, 0, 1);
+  t.truth.reset();
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto [l, v] = SampleAngles(t).directions(i);
+    const double apart =
+        std::acos(std::clamp(l.x * v.x + l.y * v.y + l.z * v.z, -1.0, 1.0)) / degree;
+    for (auto& plane : t.values) plane[i] += 0.5 * std::exp(-(apart / 3) * (apart / 3));
+  }
+  const auto d = fitted(t, right);
+  EXPECT_TRUE(d.misfit.told);
+  EXPECT_FALSE(proposes_huber(d));
+  EXPECT_TRUE(
+      std::ranges::any_of(d.next, [](const auto& s) { return s.starts_with("--mask 'retro"); }));
 }
 
 TEST(Outliers, BesideAWrongModelLeaveItsMisfitTold) {
