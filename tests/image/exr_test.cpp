@@ -230,9 +230,9 @@ TEST(Exr, RefusesMoreTilesThanAFileHasPlacesFor) {
 TEST(Exr, RefusesChannelsOfWhichTheLinesPackedAsOneFillTheMemory) {
   const Folder folder;
   std::string channels;
-  for (int c = 0; c < 40'000; ++c)
+  for (int c = 0; c < 4000; ++c)
     channels += std::to_string(c) + '\0' + ExrHeader::words({2, 0, 1, 1});
-  const ExrHeader h = ExrHeader().add("channels", "chlist", channels + '\0').add_rest(16'384, 1);
+  const ExrHeader h = ExrHeader().add("channels", "chlist", channels + '\0').add_rest(16'384, 16);
   EXPECT_HAS(test::refusal([&] { read_exr_header(folder.write("c.exr", h.text())); }),
              "bytes packed as one");
   // What OpenEXR does not go by changes nothing.
