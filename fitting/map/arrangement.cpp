@@ -211,7 +211,7 @@ OtherArrangement arrangement_of_normals(const TexelSample& s,
                     "lamp on the right)",
                     example),
         answer(one), answer(other)};
-    found.measure = "a curl of the refined normals, which a surface's have not,";
+    found.measure = "curl of the refined normals";
     found.ratio = t.ratio;
     found.sure = true;
   }
@@ -233,7 +233,7 @@ std::string words_of(AzimuthCheck azimuth) {
 }
 
 std::string refusal_of(const OtherArrangement& a) {
-  std::string lines = fmt::format("directions: {}\n  so read, {} {:.3g} times less is left", a.what,
+  std::string lines = fmt::format("directions: {}\n  so read, the {} is {:.3g} times less", a.what,
                                   a.measure, 1 / a.ratio);
   for (const auto& line : a.cure) lines += "\n  " + line;
   return lines + "\n  --as-given fits all the same";

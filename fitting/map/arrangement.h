@@ -29,7 +29,7 @@ struct OtherArrangement {
   std::string what;  ///< as "the light's azimuth is negated"; empty: none leaves less
   /// What to change in the stack; of two that only the photographs tell apart, what to look at and then one for each answer.
   std::vector<std::string> cure;
-  std::string measure = "an rms";  ///< of what less is left
+  std::string measure = "rms";  ///< of what less is left
   /// Median over texels of the rms that is left under it, over the rms that is left as given.
   double ratio = 1;
   /// Half as much or less is left, in nearly every texel or in nearly every one that tells: the stack is not as it says.

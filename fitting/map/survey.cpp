@@ -448,7 +448,7 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
   std::vector<std::string> lines;
   const auto times = [](double ratio) { return fmt::format("{:.3g}", 1 / ratio); };
   if (const auto& a = s.arrangement; !a.what.empty())
-    lines.push_back(fmt::format("it may be that {}: so read, {} {} times less is left (then {})",
+    lines.push_back(fmt::format("it may be that {}: so read, the {} is {} times less (then {})",
                                 a.what, a.measure, times(a.ratio), fmt::join(a.cure, "; ")));
   if (const auto& t = s.tone) {
     const std::string less = fmt::format("an rms {} times less is left then", times(t->ratio));

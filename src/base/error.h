@@ -23,7 +23,7 @@ template <>
 inline constexpr std::array<std::string_view, 5> names_of<Exit>{"ok", "check_failed", "wrong_usage",
                                                                 "bad_input", "not_converged"};
 
-/// One line that a user can act on.  Bugs are asserted, outcomes of a fit are values in its result;
+/// One line that a user can act on, or a few where what to do depends on what they see.  Bugs are asserted, outcomes of a fit are values in its result;
 /// this is for what people bring.
 class Error : public std::runtime_error {
  public:
