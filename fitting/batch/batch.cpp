@@ -58,12 +58,19 @@ std::vector<std::string> in_folder(const std::string& folder) {
 
 /// One path a line.
 std::vector<std::string> in_list(const std::string& list) {
+  constexpr std::size_t most = std::size_t{1} << 20;
   InputFile file(list);
+  const std::string text = file.read_rest(most_document_bytes);
   std::vector<std::string> all;
-  for (auto& line : split(file.read_rest(most_document_bytes), '\n')) {
-    if (line.ends_with('\r')) line.pop_back();
-    if (line.find('\0') != line.npos) throw bad_input(list, "a path", line, "text");
-    if (!line.empty()) all.push_back(std::move(line));
+  for (std::size_t at = 0, end = 0; at < text.size(); at = end + 1) {
+    end = std::min(text.find('\n', at), text.size());
+    std::string_view line(text.data() + at, end - at);
+    if (line.ends_with('\r')) line.remove_suffix(1);
+    if (line.find('\0') != line.npos) throw bad_input(list, "a path", std::string(line), "text");
+    if (line.empty()) continue;
+    if (all.size() == most)
+      throw bad_input(list, "lines", fmt::format("more than {} paths", most), "fewer");
+    all.emplace_back(line);
   }
   if (all.empty()) throw bad_input(list, "lines", "none", "the path of a table on each");
   return all;

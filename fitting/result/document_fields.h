@@ -107,8 +107,7 @@ inline constexpr auto description<Misfit> = FieldList{
     Field{"worst_cell", &Misfit::worst_cell, "cell of the residual map that is furthest off"},
     Field{"note", &Misfit::note, "why it was not tested"},
     Field{"too_few", &Misfit::too_few, "whether values or angles are too few to tell"},
-    Field{"outliers", &Misfit::outliers,
-          "number of values that lie alone, far from those around them"}};
+    Field{"outliers", &Misfit::outliers, "number of values far from those around them"}};
 
 template <>
 inline constexpr auto description<Physics> = FieldList{

@@ -34,14 +34,14 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
   make_misfit(f);
   const auto lines = on_a_terminal(f, "fit t.csv --quiet", 60);
   const auto first = std::ranges::find_if(
-      lines, [](const std::string& l) { return l.starts_with("beware  the model misses"); });
+      lines, [](const std::string& l) { return l.starts_with("beware  beyond noise the model is off"); });
   ASSERT_NE(first, lines.end());
   EXPECT_TRUE((first + 1)->starts_with("        ")) << *(first + 1);
   EXPECT_NE((*(first + 1))[8], ' ');
   for (const auto& l : lines)  // bytes, of which ° and ± have two; a model's name is not broken
     EXPECT_TRUE(l.size() <= 64 || l.find(' ', l.find_first_not_of(' ')) == l.npos) << l;
   const std::string piped = gonio(f, "fit t.csv").out;
-  EXPECT_NE(piped.find("beware  the model misses"), piped.npos);
+  EXPECT_NE(piped.find("beware  beyond noise the model is off"), piped.npos);
   EXPECT_NE(piped.find("; intervals allow for it\nbeware  the largest systematic deviation "
                        "is near theta_h "),
             piped.npos)

@@ -298,6 +298,10 @@ bool Delimited::next_line() {
 void Delimited::header() {
   if (!next_line()) fail("", "no line with names or numbers", "a table");
   separator_ = separator_of(line_);
+  constexpr std::ptrdiff_t most_columns = 1 << 20;
+  if (std::ranges::count_if(line_, [&](char c) { return separates(c, separator_); }) >=
+      most_columns)
+    fail("", fmt::format("more than {} columns", most_columns), "fewer");
   split_into(fields_, unescaped_, line_, separator_);
   const auto are_numbers = [](const auto& fields) {
     return std::ranges::all_of(fields, is_number);

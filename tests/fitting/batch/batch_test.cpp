@@ -177,6 +177,17 @@ TEST(Batch, TakesTheTablesOfFoldersAndListsInTheirPlace) {
             (std::vector<std::string>{"z.csv", f / "in/a.csv", f / "in/b.csv", "p.csv", "q.csv"}));
 }
 
+TEST(Batch, RefusesAListOfMorePathsThanItMayHold) {
+  const test::Folder f;
+  std::string text(std::size_t{1} << 21, '\n');  // empty lines are none
+  EXPECT_HAS(test::refusal([&] { tables_of({"@" + f.write("empty", text)}); }),
+             "lines: found none");
+  for (std::size_t i = 0; i < text.size(); i += 2) text[i] = 'a';
+  EXPECT_EQ(tables_of({"@" + f.write("full", text)}).size(), std::size_t{1} << 20);
+  EXPECT_HAS(test::refusal([&] { tables_of({"@" + f.write("more", text + "a")}); }),
+             "lines: found more than 1048576 paths");
+}
+
 TEST(Batch, TellsItsProgressAndKeepsWhatItHas) {
   const test::Folder f;
   std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";

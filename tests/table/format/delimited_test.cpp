@@ -60,6 +60,11 @@ TEST(Delimited, OfManyQuotesTakesLinearTime) {
   EXPECT_NE(complaint_of_text(text + "\n" + text.substr(0, text.size() - 1)), "");
 }
 
+TEST(Delimited, RefusesMoreColumnsThanAnyTableHas) {
+  EXPECT_EQ(complaint_of_text(std::string(1 << 20, ',') + "\n"),
+            "file: line 1: found more than 1048576 columns, expected fewer");
+}
+
 TEST(Delimited, TakesTheLineEndsOfOldMacs) {
   const auto p = parsed("# x\ra,b\r\r1,2\r3,4");
   EXPECT_EQ(p.names, (Lines{"a", "b"}));
