@@ -230,11 +230,11 @@ TEST(Exr, RefusesMoreTilesThanAFileHasPlacesFor) {
 TEST(Exr, RefusesChannelsOfWhichTheLinesPackedAsOneFillTheMemory) {
   const Folder folder;
   std::string channels;
-  for (int c = 0; c < 4000; ++c)
+  for (int c = 0; c < 40'000; ++c)
     channels += std::to_string(c) + '\0' + ExrHeader::words({2, 0, 1, 1});
-  const ExrHeader h = ExrHeader().add("channels", "chlist", channels + '\0').add_rest(16'384, 16);
+  const ExrHeader h = ExrHeader().add("channels", "chlist", channels + '\0').add_rest(16'384, 1);
   EXPECT_HAS(test::refusal([&] { read_exr_header(folder.write("c.exr", h.text())); }),
-             "bytes packed as one");
+             "attribute channels: found 40000 channels");
   // What OpenEXR does not go by changes nothing.
   channels.clear();
   for (int c = 0; c < 2000; ++c)

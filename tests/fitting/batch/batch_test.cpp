@@ -179,11 +179,13 @@ TEST(Batch, TakesTheTablesOfFoldersAndListsInTheirPlace) {
 
 TEST(Batch, RefusesAListOfMorePathsThanItMayHold) {
   const test::Folder f;
-  std::string text(std::size_t{1} << 21, '\n');  // empty lines are none
-  EXPECT_HAS(test::refusal([&] { tables_of({"@" + f.write("empty", text)}); }),
+  const std::string none(std::size_t{1} << 21, '\n');
+  EXPECT_HAS(test::refusal([&] { tables_of({"@" + f.write("empty", none)}); }),
              "lines: found none");
-  for (std::size_t i = 0; i < text.size(); i += 2) text[i] = 'a';
-  EXPECT_EQ(tables_of({"@" + f.write("full", text)}).size(), std::size_t{1} << 20);
+  constexpr std::size_t most = std::size_t{1} << 20;
+  std::string text;
+  for (std::size_t i = 0; i < most; ++i) text += std::to_string(i) + '\n';
+  EXPECT_EQ(tables_of({"@" + f.write("full", text)}).size(), most);
   EXPECT_HAS(test::refusal([&] { tables_of({"@" + f.write("more", text + "a")}); }),
              "lines: found more than 1048576 paths");
 }
