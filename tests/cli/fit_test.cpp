@@ -33,8 +33,9 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
   const Folder f;
   make_misfit(f);
   const auto lines = on_a_terminal(f, "fit t.csv --quiet", 60);
-  const auto first = std::ranges::find_if(
-      lines, [](const std::string& l) { return l.starts_with("beware  beyond noise the model is off"); });
+  const auto first = std::ranges::find_if(lines, [](const std::string& l) {
+    return l.starts_with("beware  beyond noise the model is off");
+  });
   ASSERT_NE(first, lines.end());
   EXPECT_TRUE((first + 1)->starts_with("        ")) << *(first + 1);
   EXPECT_NE((*(first + 1))[8], ' ');
