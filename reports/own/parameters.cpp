@@ -138,26 +138,33 @@ std::vector<double> plain_values(std::span<const Parameter> parameters, Others o
   return v;
 }
 
+/// Plain values with one part's colours at a value, of a metal or of none.
+std::vector<double> with_part(std::span<const Parameter> parameters,
+                              const PartColours& colours,
+                              std::span<const std::size_t> part,
+                              double value,
+                              double (*metallic)(const Parameter&),
+                              Others others) {
+  auto v = plain_values(parameters, others);
+  if (colours.metallic) v[*colours.metallic] = metallic(parameters[*colours.metallic]);
+  for (const auto k : part) v[k] = value;
+  return v;
+}
+
 }  // namespace
 
 std::vector<double> with_highlight(std::span<const Parameter> parameters,
                                    const PartColours& colours,
                                    double f0,
                                    Others others) {
-  auto v = plain_values(parameters, others);
-  if (colours.metallic) v[*colours.metallic] = high_of(parameters[*colours.metallic]);
-  for (const auto k : colours.f0) v[k] = f0;
-  return v;
+  return with_part(parameters, colours, colours.f0, f0, high_of, others);
 }
 
 std::vector<double> with_diffuse(std::span<const Parameter> parameters,
                                  const PartColours& colours,
                                  double colour,
                                  Others others) {
-  auto v = plain_values(parameters, others);
-  if (colours.metallic) v[*colours.metallic] = low_of(parameters[*colours.metallic]);
-  for (const auto k : colours.diffuse) v[k] = colour;
-  return v;
+  return with_part(parameters, colours, colours.diffuse, colour, low_of, others);
 }
 
 }  // namespace gonio

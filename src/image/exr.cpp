@@ -162,10 +162,10 @@ std::size_t expect_sound_exr(const std::string& path) {
   const std::size_t header = in.position();
   // On opening, it allocates for each tile's place in the file, and for the lines that are packed
   // as one.
-  if (tile[0] > 0)
-    if (const auto n = ((image[0] - 1) / tile[0] + 1) * ((image[1] - 1) / tile[1] + 1);
-        n > in.left(in.size()) / sizeof(std::uint64_t))
-      throw bad_input(in.path(), "tiles", fmt::format("{} of them", n), "places for all of them");
+  const std::uint64_t tiles =
+      tile[0] > 0 ? ((image[0] - 1) / tile[0] + 1) * ((image[1] - 1) / tile[1] + 1) : 0;
+  if (tiles > in.left(in.size()) / sizeof(std::uint64_t))
+    throw bad_input(in.path(), "tiles", fmt::format("{} of them", tiles), "places for all of them");
   constexpr std::uint64_t most = std::uint64_t{1} << 29;
   const auto expect_few = [&](std::uint64_t width, std::uint64_t height) {
     const auto bytes = std::min<std::uint64_t>(width, longest_side) * channels * sizeof(float) *
@@ -189,8 +189,6 @@ std::size_t expect_sound_exr(const std::string& path) {
   // As OpenEXR keeps them: each header a few times, each text and each name in room of its own, and
   // the place of each tile.
   constexpr std::size_t of_an_attribute = 1024, of_a_channel = 1024, copies = 16;
-  const std::size_t tiles =
-      tile[0] > 0 ? ((image[0] - 1) / tile[0] + 1) * ((image[1] - 1) / tile[1] + 1) : 0;
   return of_an_attribute * seen.size() + of_a_channel * channels + copies * header + copies * tiles;
 }
 
