@@ -48,7 +48,7 @@ FitSolver solver_of(const Solution& s, std::vector<std::pair<std::string, double
           std::move(phase_ms)};
 }
 
-/// What a robust fit makes of the parameter that outliers move most, in words; "" where intervals are wide beside it.
+/// Words on the parameter that outliers move most: its value in the robust fit and in this one; "" where no interval shows the move.
 std::string without_outliers(const Problem& p,
                              const FitDocument& d,
                              std::span<const double> values,

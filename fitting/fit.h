@@ -16,10 +16,10 @@ namespace gonio {
 struct FitResult {
   FitDocument document;
   BoundModel model;  ///< with the fitted values, also of parameters that are not identifiable
-  /// That of the diffuse terms alone, where nothing is known of the lobes and the document's numbers are its.
+  /// The model without its lobes, where the data do not determine these: then the document's numbers are of this one.
   std::optional<BoundModel> without_lobes = {};
 
-  /// What the document's numbers are of.
+  /// The model that the document's numbers are of.
   const BoundModel& drawn() const { return without_lobes ? *without_lobes : model; }
 };
 

@@ -56,7 +56,7 @@ struct LackOfFit {
 /// A misfit is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.  What is left
 /// is also compared with what neighbouring values differ by, and the scales of incident angles with what
 /// an instrument may do.
-/// Of a table with outliers a robust fit is judged in its place: else what they do would be the model's.
+/// Where a table has outliers, a robust fit is judged instead: else their pull would count as misfit.
 ///
 /// Misfit that follows a parameter cannot be seen in what is left; it is taken to be up to four times as
 /// large as what can be seen along one function.  Then 97 % of the intervals that allow for a misfit

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Outliers: values that lie alone, far from the model beside those around them.
+/// Outliers: values whose residuals are far from those of the values around them.
 
 #include <cstddef>
 #include <optional>

@@ -163,8 +163,8 @@ bool is_pushed(const NormalEquations& e, std::size_t i, double left, double roun
   return gain > 3.84 * variance;
 }
 
-/// Takes all lobes' values where the diffuse terms alone, fitted anew, cost no more than `luck` more; by how much twice the cost is
-/// more then.
+/// Takes the values of all lobes away, where a fit of the diffuse terms alone raises twice the cost by less than `luck`.
+/// Returns that rise; nothing where the lobes keep their values.
 std::optional<double> forget_needless_lobes(const Problem& p,
                                             const FitData<double>& thin,
                                             const Fitted& f,
