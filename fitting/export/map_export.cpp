@@ -404,9 +404,9 @@ MapExport export_map(const std::string& path, std::string& file) {
   std::vector<float> residuals(texels, std::numeric_limits<float>::quiet_NaN());
   std::vector<unsigned char> metal(texels);
   MapMedians medians(start, std::move(seen));
-  for_each_texel(start, path, [&](std::size_t t, BoundModel& model) {
-    const bool knew = medians.fill(model);
-    const Texel texel = texel_of(model);
+  for_each_texel(start, path, [&](std::size_t t, BoundModel& fit) {
+    const bool knew = medians.fill(fit);
+    const Texel texel = texel_of(fit);
     const TexelBytes bytes = bytes_of(texel, strongest);
     base.pixels[t] = bytes.base;
     rough.pixels[t] = bytes.rough;
@@ -414,7 +414,7 @@ MapExport export_map(const std::string& path, std::string& file) {
     metal[t] = texel.metal;
     if (knew)
       residuals[t] = static_cast<float>(residual_of(form.values(parameters_of(bytes, e.ior), at),
-                                                    evaluate(model, at), surface_of(model)));
+                                                    evaluate(fit, at), surface_of(fit)));
   });
   e.metals = static_cast<std::size_t>(std::ranges::count(metal, 1));
   std::erase_if(residuals, [](float r) { return std::isnan(r); });

@@ -33,6 +33,9 @@ std::vector<std::string> lost_in_layers(const BoundModel& fit,
     all.emplace_back("The sum of two lobes: " + whose + " coat takes light from what is below it.");
   if (fit.model.anisotropic)
     all.emplace_back("The masking's direction: " + whose + " is that of one mean width.");
+  if (s.largest_kd() > 0 && !s.lobes.empty())
+    all.emplace_back("Diffuse light beside the highlight: " + whose +
+                     " is what the highlight's albedo leaves.");
   if (!s.lobes.empty())
     all.emplace_back("Light lost between facets: " + whose + " highlight has it back.");
   return all;

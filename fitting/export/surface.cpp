@@ -160,6 +160,13 @@ bool fresnel_is(const BoundModel& fit, std::initializer_list<std::string_view> n
   });
 }
 
+bool keeps_diffuse_whole(const BoundModel& fit, const Surface& s) {
+  return s.largest_kd() > 0 && !s.lobes.empty() &&
+         std::ranges::none_of(fit.model.diffuse, [](const auto& d) {
+           return foreign_term(d.term) || catalogue()[d.term].coupled;
+         });
+}
+
 std::vector<std::string> lost_by_all(const BoundModel& fit,
                                      const std::string& whose,
                                      std::string_view masking,

@@ -38,6 +38,9 @@ Surface surface_of(const BoundModel&);
 /// Whether every lobe's Fresnel term is one of those, by the beginnings of their names ("dielectric").
 bool fresnel_is(const BoundModel&, std::initializer_list<std::string_view> names);
 
+/// Whether the fit has a diffuse term beside a lobe, and that term keeps its light whatever the lobe reflects.
+bool keeps_diffuse_whole(const BoundModel&, const Surface&);
+
 /// What of the fit no target has, in sentences: the exponent of the distribution, other distributions than GGX, other
 /// diffuse terms than Lambert's, other masking.
 /// \param whose  "glTF's"   \param masking  of the target, as ids end: "separable"

@@ -97,6 +97,23 @@ TEST(ExportedFit, HasTheDiffuseRoughnessOfTargetsThatKnowIt) {
   }
 }
 
+TEST(ExportedFit, NamesDiffuseLightThatTheTargetTakesForTheHighlight) {
+  const auto names = [](ExportTarget to, const std::string& diffuse, const std::string& kd) {
+    const auto e = export_fit(to, "fit.json",
+                              bound((diffuse + "ggx/smith_ggx.separable/schlick").c_str(),
+                                    (kd + "alpha=0.3,f0=0.04").c_str()),
+                              1e9);
+    return std::ranges::any_of(
+        e.lost, [](const auto& lost) { return lost.starts_with("Diffuse light beside"); });
+  };
+  for (const auto to : {ExportTarget::gltf, ExportTarget::open_pbr, ExportTarget::standard_surface,
+                        ExportTarget::usd_preview}) {
+    EXPECT_TRUE(names(to, "lambert+", "kd=0.5,")) << int(to);
+    EXPECT_FALSE(names(to, "", "")) << int(to);
+  }
+  EXPECT_FALSE(names(ExportTarget::gltf, "lambert.coupled+", "kd=0.5,")) << "it is multiplied so";
+}
+
 TEST(ExportedFit, TakesAnExtinctionOfOneChannelToMitsuba) {
   for (const char* k : {"k=0.5,0,0", "k=0,0.5,0", "k=0,0,0.5"}) {
     const auto fit = bound("ggx/smith_ggx.separable/conductor",
