@@ -250,7 +250,8 @@ FitResult fit_and_judge(const Table& t,
   const bool shared =
       judged.clusters > 0 && (o.intervals == Intervals::by_angle || enough_angles(judged.clusters));
   TableFacts& table = columns.facts(t);
-  const LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, table);
+  LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, table);
+  find_dark_bias(lack, p, f, u, table);
   widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
   const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u);
@@ -323,6 +324,7 @@ FitResult fit_and_judge(const Table& t,
   }
   facts.odd_angle = lack.odd_angle;
   facts.outliers = lack.outliers;
+  facts.dark_bias = lack.dark_bias;
   facts.without_outliers = without_outliers(p, d, f.model.values, lack, u);
   facts.beyond_stated = beside && !beside->holds;
   facts = with_table(std::move(facts), o, table, d);

@@ -327,9 +327,9 @@ LackOfFit lack_of_fit(
   double least = 1;
   for (const auto& one : tests.all) {
     const auto& [r, clustered, apart] = one;
-    const double p = one.p_of(alike);
-    if (!r.tested || (apart && !(p < significant))) continue;
-    if (!likeliest || p < least) likeliest = &r, least = p;
+    const double by_luck = one.p_of(alike);
+    if (!r.tested || (apart && !(by_luck < significant))) continue;
+    if (!likeliest || by_luck < least) likeliest = &r, least = by_luck;
     m.size = m.tested ? std::max(m.size, r.size) : r.size;
     m.tested = true;
     if (r.noise > 0) excess = std::max(excess, r.excess / r.noise * (clustered ? 1 : more));
@@ -400,6 +400,41 @@ LackOfFit lack_of_fit(
   return found;
 }
 
+double LackOfFit::moved(std::size_t i) const {
+  return std::hypot(moved_by_outliers.empty() ? 0 : moved_by_outliers[i],
+                    moved_by_noise.empty() ? 0 : moved_by_noise[i]);
+}
+
+void find_dark_bias(LackOfFit& found,
+                    const Problem& p,
+                    const Fitted& f,
+                    const Uncertainty& judged,
+                    TableFacts& table) {
+  if (p.options.metric != Metric::log || p.options.robust || table.table().truth ||
+      found.misfit.told || table.noise().bound)
+    return;
+  double sigma = 0;  // of ln f, in the noisiest band of values
+  for (const auto& band : table.noise().over_value) sigma = std::max(sigma, band.sigma);
+  const double bias = sigma * sigma / 2;
+  constexpr double little = 0.2;  // of half an interval
+  constexpr double most = 0.5;    // more is no noise
+  if (!(bias < most)) return;
+  bool matters = false;
+  std::vector<double> moved(p.free.size());
+  for (const auto& q : p.start.model.parameters) {
+    if (!q.name.starts_with("kd")) continue;
+    for (std::size_t s = q.first; s < q.first + q.count; ++s) {
+      if (!p.free.mask()[s]) continue;
+      const std::size_t i = p.free.index(s);
+      moved[i] = bias * std::abs(f.model.values[s]);
+      matters = matters || moved[i] > little * judged[i].t * judged[i].std_error;
+    }
+  }
+  if (!matters) return;
+  found.dark_bias = bias;
+  found.moved_by_noise = std::move(moved);
+}
+
 double widened(double error, double widening, double seen_against) {
   return std::hypot(error, std::sqrt(widening * widening - 1) *
                                (std::isnan(seen_against) ? error : seen_against));
@@ -413,7 +448,7 @@ double with_gains(const LackOfFit& l, std::size_t i, double error, double& freed
     by_freedom += own * own / gains.freedom;
   }
   if (variance > 0) freedom = variance * variance / by_freedom;
-  return std::hypot(std::sqrt(variance), l.moved_by_outliers.empty() ? 0 : l.moved_by_outliers[i]);
+  return std::hypot(std::sqrt(variance), l.moved(i));
 }
 
 void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_against) {
@@ -421,7 +456,7 @@ void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_agai
     double& e = u[i].std_error;
     if (std::isnan(e)) continue;
     double wider = widened(e, l.widening, seen_against[i]);
-    if (!l.gains.empty() || !l.moved_by_outliers.empty()) {
+    if (!l.gains.empty() || l.moved(i) != 0) {
       wider = with_gains(l, i, wider, u[i].freedom);
       u[i].t = students_t_quantile(0.975, std::max(1.0, u[i].freedom));
     }

@@ -38,6 +38,12 @@ struct LackOfFit {
   std::optional<Outliers> outliers = {};  ///< or a highlight at wo = wi, which is a misfit
   /// Free parameters less those of a robust fit, which follows outliers less.
   std::vector<double> moved_by_outliers = {};
+  /// By how much less the mean logarithm of the noisiest values is than that of their mean; 0 where it is little.
+  double dark_bias = 0;
+  /// Free parameters of diffuse terms, which such values determine, times that; 0 of others.
+  std::vector<double> moved_by_noise = {};
+  /// What of a parameter's error is neither noise nor misfit.
+  double moved(std::size_t i) const;
 };
 
 /// Residuals of the right model follow no angle, whatever the noise.  So these are regressed on smooth
@@ -64,7 +70,12 @@ struct LackOfFit {
 LackOfFit lack_of_fit(
     const Sampling&, const Problem&, const Fitted&, double samples_used, TableFacts&);
 
-/// Adds to the error of a parameter what shared gains and outliers make of it.
+/// Finds by how much noise of the darkest values moves a fit of logarithms.
+/// \param judged  errors before they are widened, beside which little is none
+void find_dark_bias(
+    LackOfFit&, const Problem&, const Fitted&, const Uncertainty& judged, TableFacts&);
+
+/// Adds to the error of a parameter what shared gains, outliers and dark noise make of it.
 /// \param i        number of the parameter among the free ones
 /// \param freedom  degrees of freedom of the error; becomes those of the sum [Welch, Satterthwaite]
 double with_gains(const LackOfFit&, std::size_t i, double error, double& freedom);
@@ -73,7 +84,7 @@ double with_gains(const LackOfFit&, std::size_t i, double error, double& freedom
 /// \param seen_against  error of the values that it was judged against: where the intervals are those of a
 ///                      few clusters they know of it already, and as much is added as it does to this; or NaN
 double widened(double error, double widening, double seen_against);
-/// Makes the intervals as wide as a misfit, shared gains and outliers ask.
+/// Makes the intervals as wide as a misfit, shared gains, outliers and dark noise ask.
 void widen(Uncertainty&, const LackOfFit&, std::span<const double> seen_against);
 
 }  // namespace gonio

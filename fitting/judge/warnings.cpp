@@ -60,38 +60,11 @@ double telling_bias(const FitOptions& o, const FitDocument& d) {
 
 }  // namespace
 
-namespace {
-/// Greatest noise of ln f of a band of values; 0 where it is not known.
-double greatest_noise(const Noise& n) {
-  double most = 0;
-  if (!n.bound)
-    for (const auto& band : n.over_value) most = std::max(most, band.sigma);
-  return most;
-}
-
-/// By how much less the mean logarithm of the noisiest values is than that of their mean; 0 where it is little beside the intervals
-/// of the diffuse terms, which such values determine.
-double dark_bias(const FitOptions& o, const FitDocument& d, TableFacts& table) {
-  if (o.metric != Metric::log || o.robust || table.table().truth) return 0;
-  const double sigma = greatest_noise(table.noise()), bias = sigma * sigma / 2;
-  constexpr double least = 0.01, little = 0.5;  // of a value, of half an interval
-  constexpr double most = 0.5;                  // more is no noise
-  if (!(bias > least && bias < most)) return 0;
-  for (const auto& p : d.parameters)
-    if (p.name.starts_with("kd"))
-      for (std::size_t c = 0; c < p.value.size(); ++c)
-        if (bias * std::abs(p.value[c]) > little * (p.ci95_high[c] - p.ci95_low[c]) / 2)
-          return bias;
-  return 0;
-}
-}  // namespace
-
 FitFacts with_table(FitFacts f, const FitOptions& o, TableFacts& table, const FitDocument& d) {
   const Table& t = table.table();
   f.few_angles = !t.truth && o.intervals != Intervals::independent && !enough_angles(f.angles);
   f.copies = !copies_in_words(t).empty();
   f.offset = table.negative_offset() > 0;
-  f.dark_bias = dark_bias(o, d, table);
   if (!d.misfit.reproduces()) f.retro = table.retro();
   // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
   const auto narrow = [](const FittedParameter& p) {
@@ -171,10 +144,11 @@ std::vector<std::string> warnings(const FitOptions& o,
         fmt::format("relative errors shift values by about {}, more than intervals allow for: "
                     "--metric log does not",
                     percent(bias)));
-  if (f.dark_bias > 0)
+  constexpr double least_bias = 0.01;  // of a value
+  if (f.dark_bias > least_bias)
     all.push_back(fmt::format(
-        "noise lowers the logarithms of the darkest values by about {}, and kd with them: "
-        "--metric l2_cosine minds it less",
+        "noise lowers the logarithms of the darkest values by about {}, kd with them: intervals "
+        "include it",
         percent(f.dark_bias)));
   else if (d.log_offset > 0 && !f.offset)
     all.push_back(fmt::format(

@@ -9,6 +9,7 @@
 #include <random>
 
 #include "fitting/fit.h"
+#include "fitting/goniometer.h"
 #include "fitting/support.h"
 #include "geometry/half_difference.h"
 #include "many_fits.h"
@@ -612,6 +613,30 @@ TEST(LackOfFit, OfAModelOfWhichNothingIsFreeIsTold) {
   const auto m = fit(t, o).document.misfit;
   EXPECT_TRUE(m.told);
   EXPECT_NEAR(m.size, 0.4, 0.1);
+}
+
+TEST(LackOfFit, MakesTheDiffuseTermsIntervalHoldWhatDarkNoiseTakesFromItsLogarithms) {
+  const auto truth = test::bind(paint, "alpha=0.15,f0=0.04,kd=0.03", 1);
+  unsigned inside = 0, told = 0;
+  constexpr unsigned seeds = 8;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    Table t = synthesize(truth, {.layout = Layout::random, .samples = 1});
+    test::put_on_goniometer(t, truth);
+    t.truth.reset();  // as if measured
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (double& f : t.values[0]) f += 0.0025 * normal(random);
+    FitOptions o;
+    o.model = paint;
+    const auto d = fit(t, o).document;
+    const auto& of = test::parameter(d, "kd");
+    inside += of.ci95_low[0] <= 0.03 && 0.03 <= of.ci95_high[0];
+    told += std::ranges::any_of(d.warnings, [](const auto& w) {
+      return w.starts_with("noise lowers the logarithms of the darkest values");
+    });
+  }
+  EXPECT_GE(inside, seeds - 1);
+  EXPECT_GE(told, seeds / 2);
 }
 
 }  // namespace
