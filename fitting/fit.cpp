@@ -165,8 +165,8 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
           values.std_errors(),
           angles,
           angles,
-          stated ? "the wider of two: clustered by incident angle, stated uncertainties"
-                 : "the wider of two: clustered by incident angle, independent values"};
+          stated ? "clustered by incident angle, or the stated uncertainties where these say more"
+                 : "clustered by incident angle, or of independent values where these are wider"};
 }
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.
@@ -251,7 +251,7 @@ FitResult fit_and_judge(const Table& t,
       judged.clusters > 0 && (o.intervals == Intervals::by_angle || enough_angles(judged.clusters));
   TableFacts& table = columns.facts(t);
   LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, table);
-  find_dark_bias(lack, p, f, u, table);
+  find_dark_bias(lack, sampling, p, f, u, table);
   widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
   const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u);

@@ -34,9 +34,9 @@ void print(const Export& e) {
   const auto line = [](const ExportResidual& r) {
     const auto& at = r.largest_at;
     return fmt::format(
-        "{:.3g} % off (RMS), {:.3g} % at most of {} directions: light at {:.0f}°, "
+        "{:.3g} % off (RMS of {} directions), at worst {:.3g} %: light at {:.0f}°, "
         "view at {:.0f}°, azimuths {:.0f}° and {:.0f}°",
-        100 * r.rms, 100 * r.largest, export_directions, at.theta_i, at.theta_o, at.phi_i,
+        100 * r.rms, export_directions, 100 * r.largest, at.theta_i, at.theta_o, at.phi_i,
         at.phi_o);
   };
   if (e.misfit)

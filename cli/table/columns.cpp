@@ -192,7 +192,7 @@ void print(const ColumnProposal& p, const std::string& file) {
   }
   const std::string command = columns_command(file, p.map.value_or(ColumnMap())) +
                               (p.map ? "" : " theta_i=… phi_i=… theta_o=… phi_o=… f=…");
-  say("no map; {}\n  {}\n", p.map ? "by their names and ranges it would be" : "one is made by",
+  say("no map yet; {}:\n  {}\n", p.map ? "the columns' names and ranges suggest" : "one is made by",
       command);
 }
 

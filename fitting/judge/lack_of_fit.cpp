@@ -406,19 +406,25 @@ double LackOfFit::moved(std::size_t i) const {
 }
 
 void find_dark_bias(LackOfFit& found,
+                    const Sampling& sampling,
                     const Problem& p,
                     const Fitted& f,
                     const Uncertainty& judged,
                     TableFacts& table) {
   if (p.options.metric != Metric::log || p.options.robust || table.table().truth ||
-      found.misfit.told || table.noise().bound)
+      found.misfit.told || found.outliers)
     return;
-  double sigma = 0;  // of ln f, in the noisiest band of values
-  for (const auto& band : table.noise().over_value) sigma = std::max(sigma, band.sigma);
-  const double bias = sigma * sigma / 2;
+  const Left left = left_over(sampling, p, f, table);
+  std::vector<std::pair<double, double>> values;  // f, and ln of data over model
+  for (const auto& v : left.values)
+    if (v.change > 0) values.emplace_back(v.f, std::clamp(-v.whole / v.change, -1.0, 1.0));
+  const std::size_t dark = values.size() / 2;
+  if (dark == 0) return;
+  std::ranges::nth_element(values, values.begin() + static_cast<std::ptrdiff_t>(dark));
+  double bias = 0;  // mean of a factor less 1, over that of its logarithm
+  for (std::size_t i = 0; i < dark; ++i)
+    bias += (std::expm1(values[i].second) - values[i].second) / static_cast<double>(dark);
   constexpr double little = 0.2;  // of half an interval
-  constexpr double most = 0.5;    // more is no noise
-  if (!(bias < most)) return;
   bool matters = false;
   std::vector<double> moved(p.free.size());
   for (const auto& q : p.start.model.parameters) {

@@ -38,7 +38,7 @@ struct LackOfFit {
   std::optional<Outliers> outliers = {};  ///< or a highlight at wo = wi, which is a misfit
   /// Free parameters less those of a robust fit, which follows outliers less.
   std::vector<double> moved_by_outliers = {};
-  /// By how much less the mean logarithm of the noisiest values is than that of their mean; 0 where it is little.
+  /// By how much less the mean logarithm of the darker half of the values is than that of their mean; 0 where it is little.
   double dark_bias = 0;
   /// Free parameters of diffuse terms, which such values determine, times that; 0 of others.
   std::vector<double> moved_by_noise = {};
@@ -72,8 +72,12 @@ LackOfFit lack_of_fit(
 
 /// Finds by how much noise of the darkest values moves a fit of logarithms.
 /// \param judged  errors before they are widened, beside which little is none
-void find_dark_bias(
-    LackOfFit&, const Problem&, const Fitted&, const Uncertainty& judged, TableFacts&);
+void find_dark_bias(LackOfFit&,
+                    const Sampling&,
+                    const Problem&,
+                    const Fitted&,
+                    const Uncertainty& judged,
+                    TableFacts&);
 
 /// Adds to the error of a parameter what shared gains, outliers and dark noise make of it.
 /// \param i        number of the parameter among the free ones

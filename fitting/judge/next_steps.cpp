@@ -257,7 +257,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
     steps.add(fmt::format("--metric l2_cosine gives dark values, which the {}, less weight",
                           f.offset ? "offset lowers" : "noise floor lifts"));
   if (f.few_angles)
-    steps.add("8 incident angles or more would show the errors that values of one angle share");
+    steps.add("8 incident angles or more would show errors common to all values of one angle");
   return std::move(steps).first();
 }
 

@@ -69,8 +69,8 @@ void keep_to_highlights(TableFacts& facts,
   const double met = misfit.told ? 0 : std::fmax(value, u[i].high_end(value));
   u[i].keep_limit(upper_limit, std::max(peak->alpha, met),
                   misfit.told && value > peak->alpha
-                      ? fmt::format("the fitted alpha, {:.3g}, is wider than the highlight of the "
-                                    "table: the model does not meet it",
+                      ? fmt::format("the table's highlight is narrower than the fitted alpha, {:.3g}, "
+                                    "so the model misses it",
                                     value)
                       : "the samples do not resolve the highlight");
 }

@@ -124,7 +124,7 @@ std::vector<std::string> warnings(const FitOptions& o,
     all.push_back("whether the model is right is not known: " + d.misfit.note);
   if (f.few_angles)
     all.push_back(fmt::format(
-        "{} incident angle{}: errors that values of one angle share are hard to estimate", f.angles,
+        "{} incident angle{}: an error common to all values of one angle is hard to estimate", f.angles,
         f.angles == 1 ? "" : "s are few"));
   if (f.retro)
     all.push_back(

@@ -275,7 +275,7 @@ std::string audit_page_html(const std::vector<EntryAudit>& all) {
                                     {"map", "Maps between parameters"},
                                     {"model", "Whole models"}})
     out.sections.push_back(section_of(kind, title, all));
-  out.setting = "Every figure of this page is in the JSON document beside it.";
+  out.setting = "Every number of this page is in the JSON document beside it.";
   return page_html(out, pictures);
 }
 

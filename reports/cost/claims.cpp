@@ -70,7 +70,7 @@ void pow5(Findings& to, const CostRows& r) {
   if (by_pow == r.points.end() || by_hand == r.points.end()) return;
   const double ratio = by_pow->time.ns / by_hand->time.ns;
   to.judge(
-      "a Pow5 of one's own saves what pow costs more", "",
+      "writing one's own Pow5 is faster than pow", "",
       verdict(ratio > 1 && !is_tie({by_pow->time}, {by_hand->time})),
       fmt::format("pow {}, Pow5 {}", ns(by_pow->time), ns(by_hand->time)),
       fmt::format(

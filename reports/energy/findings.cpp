@@ -301,7 +301,7 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
            fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
            fmt::format(
                "largest error at {}. Before Fresnel the coat reflects {}; with height-correlated "
-               "Smith of its own tail, {}.",
+               "Smith for its own distribution, {}.",
                place(row.roughness, row.mu), percent(row.albedo), percent(smith->rows[at].albedo)));
 }
 
@@ -311,7 +311,7 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
   const double reached = std::pow(2048.0, -0.25);
   const auto& most = *std::ranges::max_element(r.claims.clamped, {}, &ClaimRows::Clamped::lost);
   to.judge(
-      "the clamp at 2048 hardly shows", "", verdict_on_small(most.lost),
+      "the mobile form's clamp of D at 2048 hardly shows", "", verdict_on_small(most.lost),
       fmt::format("{} of the highlight is lost at roughness {:g}, more below it",
                   percent(most.lost), most.roughness),
       fmt::format("it is reached only below roughness {:.3f}. Seen head on, it takes {} of the "
@@ -350,8 +350,8 @@ void solid_angle_of_half(Findings& to, const EnergyRows& r) {
   to.judge("dωₕ = dωₗ/(4 VoH)", "", verdict(off < 1e-5),
            fmt::format("equal to {:.0f} digits", -std::log10(std::max(off, 1e-15))),
            fmt::format("for {} pairs of directions, by small differences, the solid angle of the "
-                       "half vector is that{}.",
-                       pairs, off < 1e-6 ? " to a millionth" : fmt::format(" to {:.6f}", off)));
+                       "half vector agrees{}.",
+                       pairs, off < 1e-6 ? " to one part in a million" : fmt::format(" to a share of {:.6f}", off)));
 }
 
 }  // namespace

@@ -207,14 +207,16 @@ std::string seen_side_by_side(const Facts& f,
   }
   std::vector<std::string> parts;
   for (const auto& [form, error, seen] : by_form) {
-    const auto where = parts.empty() ? " next to a photograph" : "";
-    const auto who = list_text(seen, " or ") + where;
-    parts.push_back(!form.empty()
-                        ? fmt::format("{}: {}, {}", who, in_text(form), delta_at_most(error))
-                    : kind == "metal" ? who + " needs its full spectrum"
-                                      : who + ": exact Fresnel");
+    parts.push_back(fmt::format("{} for {}{}",
+                                !form.empty()     ? in_text(form)
+                                : kind == "metal" ? "the full spectrum"
+                                                  : "exact Fresnel",
+                                list_text(seen, " and "),
+                                form.empty() ? "" : fmt::format(" ({})", delta_at_most(error))));
   }
-  return fmt::format("{}", fmt::join(parts, "; "));
+  return parts.empty()
+             ? std::string()
+             : fmt::format("next to a photograph: {}", fmt::join(parts, "; "));
 }
 
 void fresnel_of(std::vector<Decision>& to,
@@ -341,7 +343,7 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), from(*taken));
     d.error += fmt::format(" ({}one bounce: {})",
-                           taken->error > side_by_side ? "the least that a form leaves; " : "",
+                           taken->error > side_by_side ? "no form leaves less; " : "",
                            at_most(without));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));

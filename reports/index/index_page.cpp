@@ -250,7 +250,7 @@ Section fresnel(const ReportIndex& i) {
   }
   return {
       fresnel_title,
-      "Greatest ΔE2000 of the rough surface under even light, over roughness and 19 views, from "
+      "Greatest ΔE2000 of a rough surface under even light, over roughness and 19 views, from "
       "cosine 0.1 to 1; rounded up.",
       {t,
        Markup{fmt::format(
@@ -319,7 +319,7 @@ std::string index_page_html(const ReportIndex& i) {
                             "Error of G₂ against height-correlated Smith, over the time of a "
                             "sample. No form is both faster and more accurate than one on the "
                             "dashed line. The error is an RMS over a grid of directions and "
-                            "widths. The row on masking averages evenly over both cosines and "
+                            "widths. The masking row above averages evenly over both cosines and "
                             "roughness, so its figures differ.",
                             {page::Shown{i.front.figures[0].family, {}, 440}},
                             "time"});
@@ -346,11 +346,12 @@ std::string index_page_html(const ReportIndex& i) {
             "wavelengths are 650, 550 and 450 nm.",
             "Masking is compared with height-correlated Smith for GGX: RMS of G₂ over both "
             "cosines from 0.05 to 1 and over roughness.",
-            "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on: image-based "
-            "light with transport between the facets under even light, single lights with "
-            "random walks on a ball lit from 30° and from 120° to the view.",
+            "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on. For image-based "
+            "light the reference is transport between the facets under even light. For single "
+            "lights it is random walks, on a ball lit from 30° and from 120° to the view.",
             "Times are medians over several processes on this machine. A difference counts "
-            "where each of them finds it, above its spread and 3 % of the time.",
+            "where every process finds it, and finds it larger than its spread and than 3 % of "
+            "the time.",
             "Compensations are timed in one process, one light and view at a time."}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;

@@ -84,7 +84,7 @@ class Renderer {
   std::string setting() const {
     if (page_.name.empty()) return prose(page_.setting);
     return fmt::format(
-        "{} setting. {}{}Every figure of this page is in the JSON document beside it.",
+        "{} setting. {}{}Every number of this page is in the JSON document beside it.",
         page_.full    ? "Full"
         : page_.quick ? "Quick"
                       : "Standard",

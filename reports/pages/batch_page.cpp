@@ -424,7 +424,7 @@ std::string batch_page_html(const BatchSummary& s, const std::string& title) {
   out.sections.push_back(each(s, parameters, quantities));
   out.setting = fmt::format(
       "Made with `{}`. f_r is in 1/sr, without the cosine. alpha is the width of the distribution, "
-      "roughness = √alpha. Every figure of this page is in summary.page.json and, as a table, in "
+      "roughness = √alpha. Every number of this page is in summary.page.json and, as a table, in "
       "summary.csv. With sliders: `gonio explore TABLE NAME.json -o explore.html`.",
       s.made_with);
   return page_html(out, pictures);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <optional>
 
@@ -123,20 +124,15 @@ Points warnings(const FitDocument& d,
       if (std::ranges::find(of, r.status) != of.end()) labels.push_back(r.label);
     return fmt::to_string(fmt::join(labels, ", "));
   };
-  const auto reasons = [&](std::initializer_list<ParameterStatus> of) {
-    std::vector<std::string> all;
-    for (const auto& r : rows)
-      if (std::ranges::find(of, r.status) != of.end() && !r.reason.empty() &&
-          std::ranges::find(all, r.reason) == all.end())
-        all.push_back(r.reason);
-    return all.empty() ? std::string() : fmt::format(": {}", fmt::join(all, "; "));
-  };
   using enum ParameterStatus;
   if (const auto who = named({not_identifiable}); !who.empty())
     warn("Not known:", who + ". These data do not determine it; no value is given.");
-  if (const auto who = named({upper_limit, lower_limit}); !who.empty())
-    warn("Only a limit:", who + fmt::format(" have only one end of an interval, at 95 %{}.",
-                                            reasons({upper_limit, lower_limit})));
+  std::map<std::string, std::vector<std::string>> limited;  // by the reason
+  for (const auto& r : rows)
+    if (r.status == upper_limit || r.status == lower_limit) limited[r.reason].push_back(r.label);
+  for (const auto& [reason, who] : limited)
+    warn("Only a limit (95 %):", fmt::format("{}{}{}.", fmt::join(who, ", "),
+                                             reason.empty() ? "" : ", since ", reason));
   if (const auto who = named({at_bound}); !who.empty())
     warn("At the end of its range:", who + ". The data push beyond it.");
   if (const auto tied = strongest_correlation(d); tied && std::abs(tied->rho) > 0.95)
@@ -370,8 +366,8 @@ std::string fit_page_html(const FitDocument& d,
   out.setting =
       std::string(
           "f_r is in 1/sr, without the cosine. alpha is the width of the distribution, roughness = "
-          "√alpha. Every figure of this page is in the .page.json beside it") +
-      (document.empty() ? "" : ", and the fit's in " + file_name(document)) + ".";
+          "√alpha. Every number of this page is in the .page.json beside it") +
+      (document.empty() ? "" : ", and those of the fit are also in " + file_name(document)) + ".";
   return page_html(out, pictures);
 }
 

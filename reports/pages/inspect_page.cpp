@@ -437,7 +437,7 @@ std::string inspect_page_html(const gonio::Table& t,
                   {"Reciprocity and masks", "", {std::move(trust)}},
                   trust_section(t, h)};
   out.setting =
-      "f_r is in 1/sr, without the cosine. Every figure of this page is in the .page.json beside "
+      "f_r is in 1/sr, without the cosine. Every number of this page is in the .page.json beside "
       "it.";
   return page_html(out, pictures);
 }

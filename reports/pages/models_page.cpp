@@ -523,7 +523,7 @@ std::string ModelsSections::html() {
                   std::move(drawn), spheres_section(spheres(), "", at_once),
                   std::move(input), std::move(meanings)};
   out.setting =
-      "f_r is in 1/sr, without the cosine. Every figure of this page is in the .page.json beside "
+      "f_r is in 1/sr, without the cosine. Every number of this page is in the .page.json beside "
       "it.";
   return page_html(out, pictures);
 }

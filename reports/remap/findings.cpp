@@ -86,7 +86,8 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
                        *overall_rms(r, form_id::direct_k, form_id::smith),
                        *overall_rms(r, form_id::image_k, form_id::smith)),
            fmt::format(
-               "Smith's masking knows no kind of light; the first k is nearer at {} roughnesses.",
+               "Smith's masking does not depend on the kind of light: (r+1)²/8 is nearer to it at {} "
+               "roughnesses.",
                of_all(d.nearer, d.all)));
   for (const double at : {0.1, 0.3})
     if (const auto* a = row_at(ours, at))
@@ -164,8 +165,8 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
            fmt::format("off by a factor of up to {}; with a ¼ by up to {}", rounded_up(most),
                        rounded_up(with_it)),
            fmt::format(
-               "as printed it lacks a factor of ¼. On glass in the mirror direction it is off by "
-               "a factor of up to {}. With the ¼, as it was published, by up to {}.",
+               "the claim leaves out the ¼ of Unity's form. In the mirror direction of glass it is off "
+               "by a factor of up to {}. With the ¼ it is off by up to {}.",
                rounded_up(most), rounded_up(with_it)));
 }
 

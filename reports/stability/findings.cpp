@@ -57,7 +57,7 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   const auto* cross = find(r, "ndf.ggx", "cross", "half");
   if (!cross) return;
   std::string answer =
-      fmt::format("GGX in half precision keeps {} from {} on, if the shader computes |n × h|².",
+      fmt::format("GGX in half precision stays within {} from {} on, if the shader computes |n × h|².",
                   percent(cross->tolerance, 1), from_text(*cross));
   if (cross->safe_from)
     answer += fmt::format(" A clamp there changes only surfaces of a roughness below {}.",
@@ -72,7 +72,7 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   for (const auto& h : r.highlights)
     if (h.number == "half" && h.safe_from && h.finite_from && cross->safe_from) {
       to.say(fmt::format(
-          "The whole highlight on metal (F0 from {:g}), D V F and then NoL, keeps {} in half from "
+          "The whole highlight on metal (F0 from {:g}), D V F and then NoL, stays within {} in half from "
           "alpha {} on, as far as a search found.",
           h.least_f0, percent(h.tolerance, 2), rounded_up(*h.safe_from)));
       to.say(fmt::format("That is for light and view up to {:.0f}°.", h.zenith_deg));
@@ -95,13 +95,13 @@ void which_alpha(Findings& to, const StabilityRows& r) {
       const bool nowhere = !row->safe_from || *row->safe_from > 0.9;
       const auto keeps = percent(row->tolerance, 1);
       if (nowhere)
-        to.say(fmt::format("{} in half does not keep {}: {} there are {}.", o.name, keeps,
+        to.say(fmt::format("{} in half does not stay within {}: {} there are {}.", o.name, keeps,
                            row->worst_from_usual ? "even from alpha 0.05 on" : "somewhere",
                            worst_text(row->worst_from_usual.value_or(row->worst_rel))));
       else {
         // Half's NoH is taken for exact: its own rounding is that of mixed numbers.
         const std::string_view given = o.form == "cosine" ? ", of a NoH that half holds" : "";
-        to.say(fmt::format("{} in half keeps {} {}{}{}.", o.name, keeps,
+        to.say(fmt::format("{} in half stays within {} {}{}{}.", o.name, keeps,
                            *row->safe_from < 1e-5 ? std::string("for every alpha")
                                                   : fmt::format("from {} on", from_text(*row)),
                            given, evidence_text(*row)));

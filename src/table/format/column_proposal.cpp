@@ -125,7 +125,7 @@ std::optional<Matrix> matrix_of(std::span<const ColumnSummary> columns) {
     const bool across = m.angles.size() > columns[0].numbers || m.angles[0] < 0;
     of_rows = across ? theta_i : theta_o, of_columns = across ? theta_o : theta_i;
     m.guess =
-        fmt::format("rows are taken for {}, columns for {}: {}", angle_roles[*of_rows],
+        fmt::format("rows are read as {}, columns as {}: {}", angle_roles[*of_rows],
                     angle_roles[*of_columns],
                     m.angles[0] < 0 || columns[0].lowest < 0 ? "the viewer's angles have signs"
                                                              : "the viewer's angles are more");
@@ -228,11 +228,11 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
       if (!found.angle[zenith] || !found.angle[azimuth]) continue;
       const auto& named = columns[*found.angle[zenith]];
       p.said.push_back(fmt::format(
-          "{} is taken for the zenith angle, {} for the azimuth: {}",
+          "{} is read as the zenith angle, {} as the azimuth: {}",
           columns[*found.angle[azimuth]].name, named.name,
           largest(named) > 90 ? fmt::format("{} holds {:g}°, which no zenith angle is", named.name,
                                             named.highest > 90 ? named.highest : named.lowest)
-                              : "the file names both directions alike"));
+                              : "the other direction has them exchanged, too"));
       std::swap(found.angle[zenith], found.angle[azimuth]);
     }
 
@@ -277,7 +277,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
   if ((constant || matrix) && !found.angle[phi_i] && !found.angle[phi_o] && !in_matrix(phi_o) &&
       rises(theta_i) && rises(theta_o) && (!matrix || matrix->angles.front() >= 0) && !lacks) {
     map.columns.emplace_back("phi_o", "180");
-    p.said.emplace_back("no angle has a sign: all are taken for the side of the mirror direction");
+    p.said.emplace_back("no angle has a sign: all are read as on the side of the mirror direction");
   }
 
   for (std::size_t k = 0; k < columns.size() && !matrix; ++k)
@@ -297,7 +297,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
     for (const std::size_t k : by_wavelength)
       map.columns.emplace_back("f_" + columns[k].name, reference(k));
     if (bare = !by_wavelength.empty(); bare)
-      p.said.push_back(fmt::format("columns {} to {} are taken for wavelengths in nm",
+      p.said.push_back(fmt::format("columns {} to {} are read as wavelengths in nm",
                                    columns[by_wavelength.front()].name,
                                    columns[by_wavelength.back()].name));
   }
@@ -307,7 +307,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
         found.value = k;
         map.scale = *scale;
         p.said.push_back(fmt::format(
-            "{} is taken for a radiance factor{}, beside a white that reflects all: --scale {:.9g}",
+            "{} is read as a radiance factor{}, beside a white that reflects all: --scale {:.9g}",
             columns[k].name, *scale < 0.1 ? " in percent" : "", *scale));
       }
   if (found.value && !by_channel) map.columns.emplace_back("f", reference(*found.value));
@@ -320,7 +320,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
       return;
     }
     map.columns.emplace_back(role, column);
-    p.said.push_back(fmt::format("{} is taken for the {} uncertainty of the values{}", name,
+    p.said.push_back(fmt::format("{} is read as the {} uncertainty of the values{}", name,
                                  kind.starts_with("U") ? "expanded (k = 2)" : "standard",
                                  kind.ends_with("percent") ? ", in percent"
                                  : kind.ends_with("rel")   ? ", in parts"

@@ -178,15 +178,16 @@ std::string width_in_words(const NextDirection& d, double width) {
 
 std::string peak_in_words(const Highlight& p) {
   std::string s = fmt::format(
-      "half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} sample{} within: ", p.half_width_deg,
+      "half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} sample{} within it, ", p.half_width_deg,
       p.alpha, p.samples_within, p.samples_within == 1 ? "" : "s");
   switch (p.limit) {
     case PeakLimit::none:
       return s + "resolved";
     case PeakLimit::samples:
-      return s + (p.samples_within <= 1
-                      ? "one sample wide, so limited by the instrument: alpha is at most that"
-                      : "not resolved: alpha is at most about that");
+      return s + fmt::format("{}: alpha is at most {}{:.3g}",
+                             p.samples_within <= 1 ? "one sample wide, so limited by the instrument"
+                                                   : "not resolved",
+                             p.samples_within <= 1 ? "" : "about ", p.alpha);
     case PeakLimit::aperture:
       return s + "as narrow as the instrument: only a fit parts the lobe's own width from it";
     case PeakLimit::bins:

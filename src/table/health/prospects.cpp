@@ -203,8 +203,8 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format("{}; errors that values of one angle share are estimated from 8 on, or two "
-                      "for each unknown",
+          fmt::format("{}; an error common to all values of one angle shows from 8 angles on, or "
+                      "from two for each free parameter",
                       counted(n, "incident angle"))};
 }
 

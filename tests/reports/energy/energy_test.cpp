@@ -419,7 +419,7 @@ TEST(EnergyReport, JudgesWhatIsSaidOfHighlightsByClosedForms) {
   for (const auto& words :
        {std::string("does not hold"), std::string("0.7071 α"), deviation(10), deviation(1000)})
     EXPECT_NE(slopes.find(words), slopes.npos) << words << ": " << slopes;
-  const auto clamp = verdict("the clamp at 2048 hardly shows");
+  const auto clamp = verdict("the mobile form's clamp of D at 2048 hardly shows");
   EXPECT_NE(clamp.find("only below roughness 0.149"), clamp.npos) << clamp;
   EXPECT_NE(verdict("dωₕ = dωₗ/(4 VoH)").find("” holds:"), std::string::npos);
 }

@@ -127,7 +127,7 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   EXPECT_EQ(masking.unless, "time is short: Unreal's joint form saves 0.40 ns, RMS 0.07 of G₂");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").take, "Schlick");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").unless,
-            "brass next to a photograph: exact conductor at three wavelengths, ΔE ≤ 0.9");
+            "next to a photograph: exact conductor at three wavelengths for brass (ΔE ≤ 0.9)");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").take, "F82");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").error,
             "ΔE ≤ 0.4 (Schlick: ΔE ≤ 5.7 for iron)");
@@ -157,8 +157,8 @@ TEST(Decisions, NameBesideAPhotographNoFormThatShowsThere) {
   for (auto& x : f.fresnel)
     if (x.material == "gold") x.delta_e = x.form == "fresnel.schlick" ? 1.4 : 1.3;
   EXPECT_EQ(about(decisions(f), "Fresnel of gold").unless,
-            "gold next to a photograph needs its full spectrum; brass: exact conductor at three "
-            "wavelengths, ΔE ≤ 0.9");
+            "next to a photograph: the full spectrum for gold; exact conductor at three wavelengths "
+            "for brass (ΔE ≤ 0.9)");
 }
 
 TEST(Decisions, HaveARowForEachPartOfAMaterial) {

@@ -81,7 +81,7 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
       kulla = std::max(kulla, s.delta_e);
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(row.error, fmt::format("{} (the least that a form leaves; one bounce: {})",
+  EXPECT_EQ(row.error, fmt::format("{} (no form leaves less; one bounce: {})",
                                    up_to(kulla), at_most(nothing)));
   EXPECT_NE(row.unless.find("F0 is 0.04: one bounce, ΔE ≤ 1.4"), row.unless.npos) << row.unless;
 }
