@@ -251,11 +251,8 @@ class Sayings {
     say("Visible normals reach an error in {} of the time that normals by D take, at "
         "roughness 0.5 and NoV 0.5.",
         short_text(us_to_percent(*caps) / us_to_percent(*plain)));
-    const double ratio = std::pow(caps->deviation / disk->deviation, 2) - 1;
     say("Spherical caps draw a light in {} and Heitz's disk of 2018 in {}.", in_ns(caps->time),
         in_ns(disk->time));
-    say("At roughness 0.5 and NoV 0.5 the caps' variance is {} {} than the disk's.",
-        percent(std::abs(ratio), 2), ratio < 0 ? "smaller" : "larger");
     say("Bounded caps draw {} % of their lights below the horizon, where unbounded ones draw "
         "{} %.",
         short_text(100 * bounded->below), short_text(100 * caps->below));

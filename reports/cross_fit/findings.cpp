@@ -260,12 +260,13 @@ void published(Findings& to, const CrossFitRows& r) {
       static_cast<std::size_t>(std::ranges::count_if(tails, [](double c) { return c < 2; }));
   const double ggx = middle_of(each(r, &PublishedFit::ggx_log_rms)),
                gtr = middle_of(each(r, &PublishedFit::gtr_log_rms));
-  to.judge("for many materials even GGX's tail is not long enough", "",
-           verdict(2 * longer > tails.size(), longer > 0),
-           fmt::format("{} measured materials", of_all(longer, tails.size())),
-           fmt::format("{} materials measured for MERL have a longer tail. Löw and others "
-                       "published the fits that say so.",
-                       of_all(longer, tails.size())));
+  to.judge(
+      "for many materials even GGX's tail is not long enough", "",
+      verdict(2 * longer > tails.size(), longer > 0),
+      fmt::format("{} measured materials", of_all(longer, tails.size())),
+      fmt::format("Löw and others fitted measured materials of MERL. Their exponent falls off more "
+                  "slowly than GGX's for {} materials.",
+                  of_all(longer, tails.size())));
   std::vector<double> gamma;
   for (const auto& p : r.published)
     if (p.gamma_determined) gamma.push_back(p.gamma);

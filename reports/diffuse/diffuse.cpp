@@ -119,7 +119,7 @@ void add_extremes(DiffuseForm& f, const std::vector<DiffuseRow>& rows) {
 DiffuseOptions diffuse_options(bool full) {
   const double step = full ? 0.05 : 0.1;
   DiffuseOptions o{full, steps(0, step), steps(step, step), full ? 96U : 48U};
-  o.mu.insert(o.mu.begin(), {0.02, 0.05});
+  o.mu.insert(o.mu.begin(), {least_diffuse_cosine, 0.05});
   if (full) o.mu.erase(o.mu.begin() + 1);
   return o;
 }

@@ -46,22 +46,16 @@ void light_is_lost(Findings& to, const DiffuseRows& r) {
                                                  : percent(1 - kept->least_average, 2)));
 }
 
-/// Least roughness from which on a form is seen apart from the reference.
-std::optional<double> seen_from(const DiffuseRows& r, std::string_view form) {
-  constexpr double just_seen = 1;
-  std::optional<double> from;
-  for (const auto& c : r.colours)
-    if (c.form == form && c.surface == "matte" && c.delta_e > just_seen)
-      from = std::min(from.value_or(1), c.roughness);
-  return from;
-}
-
 void looks(Findings& to, const DiffuseRows& r) {
   if (const auto most = largest_difference(r.colours, lambert, "matte")) {
-    const auto from = seen_from(r, lambert);
+    double least = HUGE_VAL;  // roughness that is looked at, but for 0
+    for (const auto& c : r.colours)
+      if (c.roughness > 0) least = std::min(least, c.roughness);
+    const auto there = largest_difference(r.colours, lambert, "matte", least);
     to.say(fmt::format(
         "On matte surfaces Lambert differs from EON by up to ΔE2000 {}{}.", delta(*most),
-        from ? fmt::format(", and by more than 1 from roughness {:g} on", *from) : std::string()));
+        there ? fmt::format(", at roughness {:g} already by {}", least, delta(*there))
+              : std::string()));
   }
   const auto free = largest_difference(r.colours, lambert, "plastic"),
              coupled = largest_difference(r.colours, "diffuse.lambert.coupled", "plastic"),

@@ -76,7 +76,7 @@ Facts facts(const EnergyRows& r) {
     if (m.f0) add_scattering(f.scattering, m);
   for (const auto& s : r.single_lights) {  // the lights of a roughness stand side by side
     double& most = entry_of(f.scattering, s.id, s.f0, false, s.roughness).delta_e.back();
-    most = std::max(most, s.delta_e);
+    most = std::max(most, s.delta_e + s.error);  // of the walks
   }
   for (const auto& c : r.compensations)
     if (c.id != "single")

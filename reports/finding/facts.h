@@ -10,6 +10,9 @@
 
 namespace gonio {
 
+/// Least cosine at which the light that diffuse terms give back is looked at: nearer to grazing it may be more.
+inline constexpr double least_diffuse_cosine = 0.02;
+
 struct Facts {
   /// Machine, and the columns that times are of.
   struct Setting {

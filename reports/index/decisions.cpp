@@ -124,12 +124,13 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   const auto factor = [](double log_rms) { return fmt::format("×/÷ {:.3g}", std::exp(log_rms)); };
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
-       fmt::format("off by {} beside published fits; {} measured materials have a longer tail",
+       fmt::format("typically {} beside published fits (median), which have a longer tail for {} "
+                   "materials",
                    factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
        std::string(no_more),
-       fmt::format(
-           "γ is fitted (median {:.2g}, where it is determined): GTR with its own Smith, {}, {}",
-           t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
+       fmt::format("γ is fitted (median {:.2g}, where it is determined): GTR with its own Smith, "
+                   "typically {}, {}",
+                   t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
 // --- Fresnel ---
@@ -214,9 +215,8 @@ std::string seen_side_by_side(const Facts& f,
                                 list_text(seen, " and "),
                                 form.empty() ? "" : fmt::format(" ({})", delta_at_most(error))));
   }
-  return parts.empty()
-             ? std::string()
-             : fmt::format("next to a photograph: {}", fmt::join(parts, "; "));
+  return parts.empty() ? std::string()
+                       : fmt::format("next to a photograph: {}", fmt::join(parts, "; "));
 }
 
 void fresnel_of(std::vector<Decision>& to,
@@ -342,9 +342,9 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), from(*taken));
-    d.error += fmt::format(" ({}one bounce: {})",
-                           taken->error > side_by_side ? "no form leaves less; " : "",
-                           at_most(without));
+    d.error +=
+        fmt::format(" ({}one bounce: {})",
+                    taken->error > side_by_side ? "no form leaves less; " : "", at_most(without));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
   }
@@ -416,8 +416,6 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
     d.unless = fmt::format("up to {} of the light may leave: {}, {}", made(*form_of(nearer->form)),
                            in_text(nearer->form), delta_at_most(nearer->error));
-  else if (!below_lobe && taken->form != cheap_id)
-    d.unless = "the surface is smooth: Lambert";
   to.push_back(std::move(d));
 }
 
@@ -436,7 +434,7 @@ const Facts::Precision* precision_of(const Facts& f,
 /// A whole highlight: D in itself keeps its digits where D V F is already infinite.
 void precision(std::vector<Decision>& to, const Facts& f) {
   const auto *half = precision_of(f, precision_model, "directions", "half"),
-             *own = precision_of(f, "ndf.ggx", "cross", "half");
+             *own = precision_of(f, "ndf.ggx", "cross", "half, flushed");
   if (!half || !own || !own->safe_from) return;
   if (!half->safe_from) {
     to.push_back({"Precision: D V F NoL of GGX in half", "float instead", "ndf.ggx",

@@ -333,22 +333,30 @@ std::string index_page_html(const ReportIndex& i) {
                         "masking up to RMS {} of G₂. Where every form leaves more, the nearest is "
                         "taken.",
                         plain(side_by_side), plain(small_masking_error)),
-            fmt::format("A diffuse form that reflects more than {} of the light in a direction is "
-                        "left out. Where every form does, the one that reflects least is taken, "
-                        "whatever its ΔE.",
-                        page::percent(no_light_made, 4)),
+            fmt::format(
+                "Light that a diffuse form gives back is looked at from cosine {:g} on. A form "
+                "that reflects more than {} of it is left out. Where every form does, the one "
+                "that reflects least is taken, whatever its ΔE.",
+                least_diffuse_cosine, page::percent(no_light_made, 4)),
             "Among forms that take the same measured time, the nearest is taken, or the usual "
             "shortcut itself. GGX and the split sum are judged by no threshold: they are "
             "what people ship.",
-            "Colours are those of a rough surface under even light, beside a perfect diffuser "
-            "in D65, without a tone map. Views are from cosine 0.1 to 1, by 0.05. A metal's true "
-            "colour is that of its spectrum; three "
-            "wavelengths are 650, 550 and 450 nm.",
+            "Colours of Fresnel forms are those of a rough surface under even light, beside a "
+            "perfect "
+            "diffuser in D65, without a tone map. Views are from cosine 0.1 to 1, by 0.05; "
+            "roughness "
+            "is 0.1 or more. A metal's true colour is that of its spectrum; three wavelengths are "
+            "650, 550 and 450 nm.",
+            "The split sum's ΔE is that of a display which shows a white ball at half of its "
+            "white.",
+            "A ≤ is the greatest value at the roughnesses, views and points of a ball that were "
+            "looked at. Between them it may be more, most so under single lights.",
             "Masking is compared with height-correlated Smith for GGX: RMS of G₂ over both "
             "cosines from 0.05 to 1 and over roughness.",
             "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on. For image-based "
             "light the reference is transport between the facets under even light. For single "
-            "lights it is random walks, on a ball lit from 30° and from 120° to the view.",
+            "lights it is random walks, whose error is included, on a ball lit from 30° and from "
+            "120° to the view.",
             "Times are medians over several processes on this machine. A difference counts "
             "where every process finds it, and finds it larger than its spread and than 3 % of "
             "the time.",

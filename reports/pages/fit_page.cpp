@@ -131,8 +131,8 @@ Points warnings(const FitDocument& d,
   for (const auto& r : rows)
     if (r.status == upper_limit || r.status == lower_limit) limited[r.reason].push_back(r.label);
   for (const auto& [reason, who] : limited)
-    warn("Only a limit (95 %):", fmt::format("{}{}{}.", fmt::join(who, ", "),
-                                             reason.empty() ? "" : ", since ", reason));
+    warn("Only a limit (95 %):",
+         fmt::format("{}{}{}.", fmt::join(who, ", "), reason.empty() ? "" : ", since ", reason));
   if (const auto who = named({at_bound}); !who.empty())
     warn("At the end of its range:", who + ". The data push beyond it.");
   if (const auto tied = strongest_correlation(d); tied && std::abs(tied->rho) > 0.95)

@@ -227,9 +227,9 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   if (!ratios.empty()) {
     const auto [low, high] = std::ranges::minmax(ratios);
     const auto a = plain(low, 2), b = plain(high, 2);
-    words +=
-        fmt::format(" At the table's own samples the model peaks at {}{} times the table's greatest value{}.",
-                    a == b ? "" : a + " to ", b, a == b ? "" : ", by channel");
+    words += fmt::format(
+        " At the table's own samples the model peaks at {}{} times the table's greatest value{}.",
+        a == b ? "" : a + " to ", b, a == b ? "" : ", by channel");
   }
   const Shown picture{f.family, {}, 260};
   pictures.figures.push_back(std::move(f));
@@ -252,7 +252,8 @@ Section search(const FitDocument& d, Pictures& pictures) {
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
       "For each of {} of {}, the other parameters were fitted anew to a part of the table. The "
-      "best few were then refitted to the whole table. {} is better than the fit above: their lowest "
+      "best few were then refitted to the whole table. {} is better than the fit above: their "
+      "lowest "
       "cost (half the sum of squares) is {}, that of the fit {}.{} This is a search, not a proof.",
       many(c.cells.size(), c.parameters.size() == 1 ? "value" : "pair"),
       fmt::join(c.parameters, " and "), lies ? "None" : "One", significant(c.lowest, 6),

@@ -151,7 +151,7 @@ std::string how(const Spheres& s) {
       "behind "
       "the sphere. Flash: one, 10° above the viewer. White is the table's 99th percentile of "
       "luminance under each light. Covered: share of the lit pixels for which the table has a "
-      "value. A grid is interpolated. Of a list the nearest sample is shown, where both its "
+      "value. A grid is interpolated. A list shows its nearest sample, where both its "
       "directions are within {}°; samples mirrored at the plane of incidence, or with light and "
       "view exchanged, also serve.{} Spacing only: the fit sampled at the table's directions and "
       "interpolated as the table is, beside the fit itself.",

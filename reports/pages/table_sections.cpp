@@ -334,9 +334,10 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
                                      {"seed", fmt::to_string(t.truth->seed)}}});
   }
   return {"What the table can be trusted for",
-          h.albedo.empty() ? "These figures need no fit."
-                           : "These figures need no fit. Coverage is the share of the cosine-weighted "
-                             "hemisphere near valid samples.",
+          h.albedo.empty()
+              ? "These figures need no fit."
+              : "These figures need no fit. Coverage is the share of the cosine-weighted "
+                "hemisphere near valid samples.",
           {Group{"columns", {std::move(facts), std::move(beside)}}}};
 }
 

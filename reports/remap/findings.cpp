@@ -86,8 +86,7 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
                        *overall_rms(r, form_id::direct_k, form_id::smith),
                        *overall_rms(r, form_id::image_k, form_id::smith)),
            fmt::format(
-               "Smith's masking does not depend on the kind of light: (r+1)²/8 is nearer to it at {} "
-               "roughnesses.",
+               "Smith's masking is the same for all light; (r+1)²/8 is nearer at {} roughnesses.",
                of_all(d.nearer, d.all)));
   for (const double at : {0.1, 0.3})
     if (const auto* a = row_at(ours, at))
@@ -161,13 +160,14 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
     with_it = std::max(with_it, largest_factor(v, 1));
   }
   if (most == 0) return;
-  to.judge("F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
-           fmt::format("off by a factor of up to {}; with a ¼ by up to {}", rounded_up(most),
-                       rounded_up(with_it)),
-           fmt::format(
-               "the claim leaves out the ¼ of Unity's form. In the mirror direction of glass it is off "
-               "by a factor of up to {}. With the ¼ it is off by up to {}.",
-               rounded_up(most), rounded_up(with_it)));
+  to.judge(
+      "F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
+      fmt::format("off by a factor of up to {}; with a ¼ by up to {}", rounded_up(most),
+                  rounded_up(with_it)),
+      fmt::format(
+          "the claim leaves out the ¼ of Unity's form. In the mirror direction of glass it is off "
+          "by a factor of up to {}. With the ¼ it is off by up to {}.",
+          rounded_up(most), rounded_up(with_it)));
 }
 
 }  // namespace

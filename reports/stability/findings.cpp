@@ -56,25 +56,26 @@ std::string worst_text(double relative) {
 void which_alpha(Findings& to, const StabilityRows& r) {
   const auto* cross = find(r, "ndf.ggx", "cross", "half");
   if (!cross) return;
-  std::string answer =
-      fmt::format("GGX in half precision stays within {} from {} on, if the shader computes |n × h|².",
-                  percent(cross->tolerance, 1), from_text(*cross));
-  if (cross->safe_from)
+  const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed");
+  std::string answer = fmt::format(
+      "GGX in half precision stays within {} from {} on, if the shader computes |n × h|²{}.",
+      percent(cross->tolerance, 1), from_text(*cross),
+      flushed ? " and the processor keeps subnormals" : "");
+  if (flushed) answer += fmt::format(" One that flushes them needs {}.", from_text(*flushed));
+  if (const auto& from = (flushed ? flushed : cross)->safe_from)
     answer += fmt::format(" A clamp there changes only surfaces of a roughness below {}.",
-                          rounded_up(std::sqrt(*cross->safe_from)));
+                          rounded_up(std::sqrt(*from)));
   if (const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed"))
-    answer += fmt::format(" Where it rounds NoH to half instead, it does so from {} on{}.",
+    answer += fmt::format(" Where NoH is rounded to half instead, it does so from {} on{}.",
                           from_text(*mobile), evidence_text(*mobile));
-  if (const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed"))
-    answer += fmt::format(" On a processor that drops subnormals |n × h|² needs {}.",
-                          from_text(*flushed));
   to.say(std::move(answer));
   for (const auto& h : r.highlights)
     if (h.number == "half" && h.safe_from && h.finite_from && cross->safe_from) {
-      to.say(fmt::format(
-          "The whole highlight on metal (F0 from {:g}), D V F and then NoL, stays within {} in half from "
-          "alpha {} on, as far as a search found.",
-          h.least_f0, percent(h.tolerance, 2), rounded_up(*h.safe_from)));
+      to.say(
+          fmt::format("The whole highlight on metal (F0 from {:g}), D V F and then NoL, stays "
+                      "within {} in half from "
+                      "alpha {} on, as far as a search found.",
+                      h.least_f0, percent(h.tolerance, 2), rounded_up(*h.safe_from)));
       to.say(fmt::format("That is for light and view up to {:.0f}°.", h.zenith_deg));
       to.say(fmt::format("Below alpha {} the product is too large for half.",
                          rounded_down(*h.finite_from)));

@@ -53,9 +53,9 @@ constexpr std::uint64_t seed = 1;
 /// Arithmetics in which a subject is looked at; the liberties of half where every half is looked at, or with all the time.
 std::vector<Arithmetic> arithmetics(const Subject& s, Depth setting) {
   std::vector<Arithmetic> all{{Number::half}, {Number::mixed}, {Number::float_}};
-  if (setting == Depth::full || (setting == Depth::quick && can_be_exhausted(s))) {
+  if (setting == Depth::full || can_be_exhausted(s)) {
     all.push_back({Number::half, true, false});
-    all.push_back({Number::half, false, true});
+    if (setting != Depth::brief) all.push_back({Number::half, false, true});
   }
   if (setting != Depth::brief) all.push_back({Number::double_});
   return all;

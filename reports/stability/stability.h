@@ -126,8 +126,8 @@ struct StabilityRows {
 
 /// Setting: what is looked at, and for how long.
 struct StabilityOptions {
-  /// brief: distributions, masking and Fresnel forms that people ship, in half, mixed and float; quick: every form in every number,
-  /// half also flushed and contracted where every half is looked at; full: that of all, longer searches.
+  /// brief: distributions, masking and Fresnel forms that people ship, in half, mixed and float; quick: every form in every number.
+  /// Half is also flushed where every half is looked at, and but for brief contracted; full: both for all, and longer searches.
   enum class Setting { brief, quick, full } setting = Setting::quick;
   std::vector<std::string> ids{};  ///< empty: as the setting says
 };

@@ -124,11 +124,10 @@ std::optional<Matrix> matrix_of(std::span<const ColumnSummary> columns) {
   if (!of_rows) {
     const bool across = m.angles.size() > columns[0].numbers || m.angles[0] < 0;
     of_rows = across ? theta_i : theta_o, of_columns = across ? theta_o : theta_i;
-    m.guess =
-        fmt::format("rows are read as {}, columns as {}: {}", angle_roles[*of_rows],
-                    angle_roles[*of_columns],
-                    m.angles[0] < 0 || columns[0].lowest < 0 ? "the viewer's angles have signs"
-                                                             : "the viewer's angles are more");
+    m.guess = fmt::format(
+        "rows are read as {}, columns as {}: {}", angle_roles[*of_rows], angle_roles[*of_columns],
+        m.angles[0] < 0 || columns[0].lowest < 0 ? "the viewer's angles have signs"
+                                                 : "the viewer's angles are more");
   }
   m.rows = *of_rows, m.columns = *of_columns;
   return m.rows == m.columns ? std::nullopt : std::optional(m);

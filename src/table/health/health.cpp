@@ -177,9 +177,9 @@ std::string width_in_words(const NextDirection& d, double width) {
 }
 
 std::string peak_in_words(const Highlight& p) {
-  std::string s = fmt::format(
-      "half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} sample{} within it, ", p.half_width_deg,
-      p.alpha, p.samples_within, p.samples_within == 1 ? "" : "s");
+  std::string s =
+      fmt::format("half width {:.3g}° (like GGX alpha {:.3g}), {:.0f} sample{} within it, ",
+                  p.half_width_deg, p.alpha, p.samples_within, p.samples_within == 1 ? "" : "s");
   switch (p.limit) {
     case PeakLimit::none:
       return s + "resolved";

@@ -22,7 +22,7 @@ ReportFiles made_files() {
   r.facts.setting = Facts::Setting{"a processor", 2, "avx2", {}, 0.5};
   r.facts.fresnel = {{"fresnel.schlick", "metal", "gold", 0.9, 0.1},
                      {"fresnel.gulbrandsen", "metal", "gold", 0, 0}};
-  r.facts.precision = {{"ndf.ggx", "cross", "half", 0.02, 0.004},
+  r.facts.precision = {{"ndf.ggx", "cross", "half, flushed", 0.02, 0.004},
                        {"ggx/smith_ggx.correlated/schlick", "directions", "half", 0.02, 0.04, 88}};
   const FigureCurve points{"GGX", {1, 2}, {0.1, 0.2}, FigureCurve::Kind::points};
   FigureCurve front{"front of GGX", {1, 2}, {0.1, 0.2}};

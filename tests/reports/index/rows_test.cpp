@@ -76,13 +76,13 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
   double nothing = 0, kulla = 0;
   for (const auto& s : r.single_lights) {
     if (s.f0 != 0.9) continue;
-    if (s.id == "single") nothing = std::max(nothing, s.delta_e);
+    if (s.id == "single") nothing = std::max(nothing, s.delta_e + s.error);
     if ((s.roughness >= 0.5 && s.id == "kulla_conty") || (s.roughness < 0.5 && s.id == "single"))
-      kulla = std::max(kulla, s.delta_e);
+      kulla = std::max(kulla, s.delta_e + s.error);
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(row.error, fmt::format("{} (no form leaves less; one bounce: {})",
-                                   up_to(kulla), at_most(nothing)));
+  EXPECT_EQ(row.error, fmt::format("{} (no form leaves less; one bounce: {})", up_to(kulla),
+                                   at_most(nothing)));
   EXPECT_NE(row.unless.find("F0 is 0.04: one bounce, ΔE ≤ 1.4"), row.unless.npos) << row.unless;
 }
 
@@ -205,15 +205,16 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   auto all = facts(r);
   join(all, facts(timed({"ggx/smith_ggx.correlated/schlick", "gtr/smith_gtr.correlated/schlick"})));
   const auto row = of(decisions(all), "Distribution");
+  EXPECT_EQ(row.error, fmt::format("typically ×/÷ {:.3g} beside published fits (median), which "
+                                   "have a longer tail for 17 of 20 "
+                                   "materials",
+                                   std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(
-      row.error,
+      row.unless,
       fmt::format(
-          "off by ×/÷ {:.3g} beside published fits; 17 of 20 measured materials have a longer tail",
-          std::exp(0.395)));  // between the tenth and the eleventh
-  EXPECT_EQ(row.unless,
-            fmt::format("γ is fitted (median 1.5, where it is determined): GTR with its own Smith, "
-                        "×/÷ {:.3g}, +0.10 ns",
-                        std::exp(0.1475)))
+          "γ is fitted (median 1.5, where it is determined): GTR with its own Smith, typically "
+          "×/÷ {:.3g}, +0.10 ns",
+          std::exp(0.1475)))
       << "the error and the time of one model";
   EXPECT_FALSE(facts(CrossFitRows{}).tails);
 }
@@ -221,7 +222,8 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
 TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   StabilityRows r;
   StabilityRow d{};
-  d.id = "ndf.ggx", d.form = "cross", d.number = "half", d.decides = "alpha", d.tolerance = 0.02;
+  d.id = "ndf.ggx", d.form = "cross", d.number = "half, flushed", d.decides = "alpha",
+  d.tolerance = 0.02;
   d.safe_from = 0.0039;
   r.rows = {d};
   r.highlights = {{"ggx/smith_ggx.correlated/schlick", "half", 88, 0.5, 0.022, 0.0371, 0.0315}};

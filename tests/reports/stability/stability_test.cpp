@@ -113,15 +113,16 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
   r.rows[3].nonfinite = 2;
   r.rows[2].finite_from = 0.01;
   const auto f = findings(r);
-  EXPECT_EQ(
-      f.sentences[0],
-      "GGX in half precision stays within 2\u00a0% from alpha 0.004 on, if the shader computes |n × h|². "
-      "A clamp there changes only surfaces of a roughness below 0.063. Where it rounds NoH to "
-      "half instead, it does so from alpha 0.22 on, as far as a search found.")
+  EXPECT_EQ(f.sentences[0],
+            "GGX in half precision stays within 2\u00a0% from alpha 0.004 on, if the shader "
+            "computes |n × h|². "
+            "A clamp there changes only surfaces of a roughness below 0.063. Where NoH is rounded "
+            "to half instead, it does so from alpha 0.22 on, as far as a search found.")
       << "0.0039 would be below the limit";
-  EXPECT_TRUE(says(f,
-                   "Beckmann in half does not stay within 2\u00a0%: even from alpha 0.05 on there are "
-                   "errors up to 3.6\u00a0%."));
+  EXPECT_TRUE(
+      says(f,
+           "Beckmann in half does not stay within 2\u00a0%: even from alpha 0.05 on there are "
+           "errors up to 3.6\u00a0%."));
   EXPECT_TRUE(says(f,
                    "GTR of every gamma in half does not stay within 2\u00a0%: somewhere there are "
                    "values up to 3900 times too large."));
@@ -141,16 +142,16 @@ TEST(StabilityFindings, SayWhichMobileFormsMayBeClampedAnywhere) {
   r.rows[3].safe_from = 0.96;
   r.rows[3].worst_rel = 1e9;
   const auto f = findings(r);
-  EXPECT_TRUE(
-      says(f, "The mobile form with a cross product in half stays within 2\u00a0% for every alpha."));
-  EXPECT_TRUE(
-      says(f,
-           "The mobile form from NoH in half stays within 2\u00a0% from alpha 0.19 on, of a NoH that half "
-           "holds."));
-  EXPECT_TRUE(
-      says(f,
-           "GTR of every gamma in half does not stay within 2\u00a0%: somewhere there are values more "
-           "than a million times too large."));
+  EXPECT_TRUE(says(
+      f, "The mobile form with a cross product in half stays within 2\u00a0% for every alpha."));
+  EXPECT_TRUE(says(f,
+                   "The mobile form from NoH in half stays within 2\u00a0% from alpha 0.19 on, of "
+                   "a NoH that half "
+                   "holds."));
+  EXPECT_TRUE(says(
+      f,
+      "GTR of every gamma in half does not stay within 2\u00a0%: somewhere there are values more "
+      "than a million times too large."));
   test::expect_plain(f);
 }
 
