@@ -189,6 +189,12 @@ Export export_fit(ExportTarget to,
       for (const auto& x : p) e.parameters.emplace_back(x.name, x.values);
       for (const auto& [name, values] : form.variants)
         e.variants.push_back({name, residual(values(p, judged), wanted, scale)});
+      constexpr double alike = 1e-6;  // of a grey index, which every variant reads alike
+      if (std::ranges::all_of(e.variants, [&](const auto& v) {
+            return std::abs(v.residual.largest - e.written.largest) < alike &&
+                   std::abs(v.residual.rms - e.written.rms) < alike;
+          }))
+        e.variants.clear();
       best = std::move(e);
     }
     first = false;

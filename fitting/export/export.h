@@ -48,8 +48,7 @@ struct Export {
   std::optional<double> misfit{};  ///< typical factor of the fit from its table, exp of the log RMS
   double tolerance = 0;            ///< of the root mean square
   ExportResidual renamed{}, written{};
-  std::vector<ExportVariant>
-      variants{};  ///< of what was written; empty: there is one way to compute it
+  std::vector<ExportVariant> variants{};  ///< of what was written; empty: all compute the same
   bool refitted = false;
   bool preview = false;                ///< whether the file has a sphere to show the material on
   std::vector<std::string> lost{};     ///< what the target cannot express, in sentences

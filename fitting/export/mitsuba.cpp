@@ -124,9 +124,6 @@ std::vector<TargetForm> mitsuba_forms(const Surface& s) {
     return evaluate(bind_model(spec, std::move(settings), channels), angles);
   };
   form.values = evaluated;
-  const bool coloured = std::ranges::any_of(
-      p, [](const TargetParameter& x) { return is_index(x.name) && !is_grey(x.values); });
-  if (!coloured) return {std::move(form)};
   form.variants.emplace_back("scalar_rgb", [evaluated](TargetParameters now, const auto& angles) {
     for (auto& x : now) {
       if (!is_index(x.name) || is_grey(x.values)) continue;
