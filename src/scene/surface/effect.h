@@ -36,7 +36,7 @@ enum class Form {
   isotropic, anisotropic,
   uncoated, coated,
   ggx_tail, gtr_tail,
-  no_diffuse, lambert, disney,
+  no_diffuse, lambert, disney, given_diffuse,
   uncoupled, coupled,
   rgb, spectral,
   split_sum, quadrature,
@@ -47,11 +47,12 @@ enum class Form {
 }  // namespace gonio::scene
 
 template <>
-inline constexpr std::array<std::string_view, 28> gonio::names_of<gonio::scene::Form>{
-    "schlick",   "f82",       "exact",     "none",       "turquin",    "fdez_aguera", "kulla_conty",
-    "tabulated", "schlick_k", "separable", "correlated", "off",        "on",          "off",
-    "on",        "ggx",       "gtr",       "none",       "lambert",    "disney",      "off",
-    "on",        "rgb",       "spectral",  "split_sum",  "quadrature", "float",       "double"};
+inline constexpr std::array<std::string_view, 29> gonio::names_of<gonio::scene::Form>{
+    "schlick",     "f82",       "exact",      "none",      "turquin",    "fdez_aguera",
+    "kulla_conty", "tabulated", "schlick_k",  "separable", "correlated", "off",
+    "on",          "off",       "on",         "ggx",       "gtr",        "none",
+    "lambert",     "disney",    "as_given",   "off",       "on",         "rgb",
+    "spectral",    "split_sum", "quadrature", "float",     "double"};
 
 namespace gonio::scene {
 

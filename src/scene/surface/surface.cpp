@@ -333,7 +333,7 @@ void Look::offer_forms() {
           first_.any ? "its diffuse albedo is 0" : "it is all there is");
   } else {
     offer(
-        Effect::diffuse, {disney}, false,
+        Effect::diffuse, {given_diffuse}, false,
         diffuse_.own ? "a function of a file has one form" : "its diffuse term is of another kind");
   }
   if (diffuse_.coupled)

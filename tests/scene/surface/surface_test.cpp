@@ -116,6 +116,7 @@ TEST(Look, LeavesTermsThatNoFormStandsForAsTheyAre) {
     EXPECT_EQ(is("tail"), 0.4);
   }
   EXPECT_EQ(look.offer(Effect::diffuse).why, "its diffuse term is of another kind");
+  EXPECT_EQ(look.offer(Effect::diffuse).forms, std::vector{Form::given_diffuse});
   const Look mixed(test::material("ggx/smith_student_t.correlated/conductor", {"tail=0.4"}));
   EXPECT_EQ(mixed.surface(mixed.structural()).spec(), "ggx/smith_student_t.correlated/conductor");
 }
