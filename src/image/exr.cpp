@@ -166,7 +166,7 @@ std::size_t expect_sound_exr(const std::string& path) {
       tile[0] > 0 ? ((image[0] - 1) / tile[0] + 1) * ((image[1] - 1) / tile[1] + 1) : 0;
   if (tiles > in.left(in.size()) / sizeof(std::uint64_t))
     throw bad_input(in.path(), "tiles", fmt::format("{} of them", tiles), "places for all of them");
-  constexpr std::uint64_t most = std::uint64_t{1} << 29;
+  constexpr std::uint64_t most = std::uint64_t{1} << 27;
   const auto expect_few = [&](std::uint64_t width, std::uint64_t height) {
     const auto bytes = std::min<std::uint64_t>(width, longest_side) * channels * sizeof(float) *
                        std::min<std::uint64_t>(height, longest_side);

@@ -166,9 +166,8 @@ TEST(ExrFile, RefusesLargeTilesAndEitherReadsOrRefusesDamagedFiles) {
   const auto at = bytes.find("tiledesc");
   ASSERT_NE(at, bytes.npos);
   std::string large = bytes;
-  const std::uint32_t side = 4096;
-  for (const std::size_t k : {13U, 17U})  // after "tiledesc\0" and the length
-    std::memcpy(large.data() + at + k, &side, sizeof side);
+  const std::uint32_t sides[]{4096, 2048};  // after "tiledesc\0" and the length
+  std::memcpy(large.data() + at + 13, sides, sizeof sides);
   EXPECT_HAS(refusal([&] { open_exr(f.write("large.exr", large)); }), "at most 4194304");
 
   for (const int tile : {0, 16}) {
