@@ -1,6 +1,7 @@
 #include "table/format/klems.h"
 
 #include <algorithm>
+#include <cstddef>
 #include <memory>
 #include <numbers>
 
@@ -67,14 +68,19 @@ class Basis {
 };
 
 constexpr std::size_t kMostPatches = 2048;
+constexpr std::ptrdiff_t kMostTags = 1 << 17;
 
 /// The document with the words for errors in it.
 class KlemsReader {
  public:
-  explicit KlemsReader(InputFile& in) : path_(in.path()) {
-    // What pugixml makes of a file takes up to 30 times its size.
-    const std::string text = in.read_rest(std::uint64_t{1} << 25);
-    const auto parsed = document_.load_buffer(text.data(), text.size());
+  explicit KlemsReader(InputFile& in)
+      : path_(in.path()), text_(in.read_rest(std::uint64_t{1} << 25)) {
+    // A tag, with the text behind it, or an attribute takes up to 28 times its bytes: few of each
+    // are 25 MB.
+    for (const char c : {'<', '='})
+      if (const auto n = std::ranges::count(text_, c); n > kMostTags)
+        fail("document", fmt::format("'{}' {} times", c, n), fmt::format("at most {}", kMostTags));
+    const auto parsed = document_.load_buffer_inplace(text_.data(), text_.size());
     if (!parsed)
       fail(fmt::format("byte {}", parsed.offset), parsed.description(), "well-formed XML");
   }
@@ -228,7 +234,7 @@ class KlemsReader {
     return all;
   }
 
-  std::string path_;
+  std::string path_, text_;
   pugi::xml_document document_;
 };
 

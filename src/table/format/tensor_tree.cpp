@@ -194,6 +194,9 @@ Table tensor_tree_table(const std::string& path,
   t.channels = {"f"};
   DirectionList l;
   Values values;
+  const std::size_t leaves = tree->values.size() / (axes == 3 ? 2 : 1) + 1;
+  for (auto* of : {&l.theta_i_deg, &l.phi_i_deg, &l.theta_o_deg, &l.phi_o_deg}) of->reserve(leaves);
+  values.reserve(leaves);
   const auto add = [](std::vector<double>& theta, std::vector<double>& phi, double x, double y) {
     theta.push_back(std::asin(std::min(1.0, std::hypot(x, y))) / degree);
     const double deg = std::atan2(y, x) / degree;

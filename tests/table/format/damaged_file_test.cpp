@@ -306,10 +306,17 @@ TEST(KlemsFile, MayBeNoXmlBomb) {
                                              "<ScatteringData>\n", "<ScatteringData>&y;")),
                    "ScatteringData, number 1: found '&y;");
   std::string nested;
-  for (int k = 0; k < 200'000; ++k) nested += "<a>";
+  for (int k = 0; k < 60'000; ++k) nested += "<a>";
   EXPECT_COMPLAINT(folder.write("t", head + nested), "expected well-formed XML");
-  for (int k = 0; k < 200'000; ++k) nested += "</a>";
+  for (int k = 0; k < 60'000; ++k) nested += "</a>";
   EXPECT_COMPLAINT(folder.write("t", head + nested + "</WindowElement>"), "no Optical");
+  for (int k = 0; k < 20'000; ++k) nested += "<a/>x";
+  EXPECT_COMPLAINT(folder.write("t", head + nested + "</WindowElement>"),
+                   "document: found '<' 140002 times, expected at most 131072");
+  std::string attributes = "<a";
+  for (int k = 0; k < 140'000; ++k) attributes += " a=''";
+  EXPECT_COMPLAINT(folder.write("t", head + attributes + "/></WindowElement>"),
+                   "document: found '=' 140000 times");
 }
 
 TEST(AltaFile, NamesTheLineThatIsWrong) {
