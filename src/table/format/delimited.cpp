@@ -58,16 +58,19 @@ std::string_view unquoted(std::string_view s, std::deque<std::string>& unescaped
 }
 
 /// \param unescaped  see unquoted(); what it held is no longer needed
-void split_into(std::vector<std::string_view>& fields,
-                std::deque<std::string>& unescaped,
-                std::string_view line,
-                char separator) {
+/// \param most       fields that are kept
+/// \return           how many there are
+std::size_t split_into(std::vector<std::string_view>& fields,
+                       std::deque<std::string>& unescaped,
+                       std::string_view line,
+                       char separator,
+                       std::size_t most = std::string_view::npos) {
   fields.clear();
   unescaped.clear();
-  for (;;) {
+  for (std::size_t count = 1;; ++count) {
     const auto end = end_of_field(line, separator);
-    fields.push_back(unquoted(trimmed(line.substr(0, end)), unescaped));
-    if (end == line.npos) return;
+    if (count <= most) fields.push_back(unquoted(trimmed(line.substr(0, end)), unescaped));
+    if (end == line.npos) return count;
     line.remove_prefix(end + 1);
     if (separator == kAnyBlank) line = trimmed(line);
   }
@@ -329,12 +332,11 @@ void Delimited::header() {
 bool Delimited::next() {
   if (!pending_ && !next_line()) return false;
   pending_ = false;
-  split_into(fields_, unescaped_, line_, separator_);
+  const auto count = split_into(fields_, unescaped_, line_, separator_, names_.size());
   for (auto& field : fields_) field = trimmed(field);
-  if (fields_.size() != names_.size()) {
-    const bool commas =
-        separator_ == ',' && fields_.size() > names_.size() && line_.find('.') == line_.npos;
-    fail("", fmt::format("{} fields", fields_.size()),
+  if (count != names_.size()) {
+    const bool commas = separator_ == ',' && count > names_.size() && line_.find('.') == line_.npos;
+    fail("", fmt::format("{} fields", count),
          fmt::format("{}{}", names_.size(),
                      commas      ? " (a decimal comma needs ; or a tab between the fields)"
                      : !any_row_ ? " (--skip N passes over lines above the names)"

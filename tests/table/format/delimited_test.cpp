@@ -60,6 +60,14 @@ TEST(Delimited, OfManyQuotesTakesLinearTime) {
   EXPECT_NE(complaint_of_text(text + "\n" + text.substr(0, text.size() - 1)), "");
 }
 
+TEST(Delimited, KeepsNoMoreFieldsOfARowThanThereAreNames) {
+  const std::string text = "a,b\n" + std::string(1'000'000, ',');
+  Delimited lines("file", text);
+  EXPECT_EQ(test::refusal([&] { lines.next(); }).substr(0, 44),
+            "file: line 2: found 1000001 fields, expected");
+  EXPECT_EQ(lines.fields().size(), 2U);
+}
+
 TEST(Delimited, RefusesMoreColumnsThanAnyTableHas) {
   EXPECT_EQ(complaint_of_text(std::string(1 << 20, ',') + "\n"),
             "file: line 1: found more than 1048576 columns, expected fewer");
