@@ -256,6 +256,43 @@ std::string as_in_document(const std::string& text) {
                                              : JsonDocument("", json_line(text)).root().string();
 }
 
+std::size_t memory_of(const ReadDocument& d) {
+  std::size_t all = sizeof d + d.made_with.size() + d.sha256.size();
+  const auto add = [&](const auto& list) { all += list.size() * sizeof list[0]; };
+  const auto add_texts = [&](const std::vector<std::string>& list) {
+    add(list);
+    for (const auto& text : list) all += text.size();
+  };
+  add_texts({d.row.path, d.row.document, d.row.message, d.row.page});
+  if (const auto& f = d.row.fit) {
+    add_texts({f->model});
+    add_texts(f->channels);
+    add_texts(f->warnings);
+    for (const auto& [name, n] : f->masked) all += 2 * sizeof name + name.size();
+    for (const auto& [name, ms] : f->time_ms) all += 2 * sizeof name + name.size();
+    add(f->parameters);
+    for (const auto& p : f->parameters) {
+      all += p.name.size();
+      for (const auto* of : {&p.value, &p.std_error, &p.limit}) add(*of);
+      add(p.status);
+    }
+  }
+  if (const auto& p = d.row.preview) {
+    all += p->sphere.size();
+    add(p->albedo);
+    if (const auto& c = p->curve) {
+      add_texts({c->at, c->along});
+      add(c->channels);
+      for (const auto* of : {&c->data_deg, &c->model_deg}) add(*of);
+      for (const auto* of : {&c->data, &c->model}) {
+        add(*of);
+        for (const auto& channel : *of) add(channel);
+      }
+    }
+  }
+  return all;
+}
+
 std::optional<ReadDocument> parse_document(const std::string& path, const std::string& bytes) {
   const JsonDocument document(path, bytes);
   const JsonReader& root = document.root();
@@ -270,10 +307,14 @@ std::optional<ReadDocument> parse_document(const std::string& path, const std::s
   KeptFit k;
   read_record(root, k);
   const Exit outcome = k.termination == "converged" ? Exit::done : Exit::not_converged;
-  return ReadDocument{{std::move(k.path), "", outcome, std::move(k.message), std::move(k.fit),
-                       std::move(k.preview)},
-                      std::move(k.made_with),
-                      std::move(k.sha256)};
+  ReadDocument d{{std::move(k.path), "", outcome, std::move(k.message), std::move(k.fit),
+                  std::move(k.preview)},
+                 std::move(k.made_with),
+                 std::move(k.sha256)};
+  if (const auto bytes = memory_of(d); bytes > most_of_a_row)
+    throw bad_input(path, "the document", fmt::format("{} bytes that a summary shows of it", bytes),
+                    fmt::format("at most {}", most_of_a_row));
+  return d;
 }
 
 std::optional<ReadDocument> read_document(const std::string& path) {

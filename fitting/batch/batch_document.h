@@ -67,7 +67,13 @@ struct ReadDocument {
   BatchRow row;                   ///< without its document and page
   std::string made_with, sha256;  ///< the latter of the table's bytes; empty of a failure
 };
-/// Document of a batch, read; no value of a document of anything else.  One that is not whole is bad_input.
+/// Memory that the rows of a document, and of all documents of a folder, take at most [bytes].
+inline constexpr std::size_t most_of_a_row = std::size_t{1} << 24,
+                             most_of_all_rows = std::size_t{1} << 30;
+/// Memory that a document's row takes, about [bytes].
+std::size_t memory_of(const ReadDocument&);
+/// Document of a batch, read; no value of a document of anything else.  One that is not whole, or has a row that takes too much memory, is
+/// bad_input.
 std::optional<ReadDocument> read_document(const std::string& path);
 /// \param bytes  of the document
 std::optional<ReadDocument> parse_document(const std::string& path, const std::string& bytes);

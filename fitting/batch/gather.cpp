@@ -2,8 +2,10 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <filesystem>
 #include <set>
+#include <tuple>
 #include <unordered_map>
 
 #include "base/file.h"
@@ -48,9 +50,10 @@ std::string without_side_file(const std::string& made_with) {
 struct Found {
   std::string name;
   fs::file_time_type written{};
-  std::optional<ReadDocument> read;  ///< of a batch
-  std::string fault;                 ///< why it cannot be read
-  bool listed = false;               ///< it has the name that the list gives its table
+  std::optional<ReadDocument> read =
+      {};  ///< of a batch; its row is whole only if it was made in the way that was asked for
+  std::string fault = {};  ///< why it cannot be read
+  bool listed = false;     ///< it has the name that the list gives its table
 };
 
 /// Documents in the order of their names, but the summary's and those of known rows; none is read yet.
@@ -64,7 +67,7 @@ std::vector<Found> documents_in(const std::string& folder,
       if (e.path().extension() != ".json" || name.starts_with('.') || name == list_name ||
           name == page_data_name || known.contains(name) || !e.is_regular_file(gone))
         continue;
-      all.push_back({name, e.last_write_time(gone), {}, "", false});
+      all.push_back({name, e.last_write_time(gone)});
     }
   } catch (const fs::filesystem_error& e) {
     throw bad_input(folder, "opening", e.code().message(), "a readable folder");
@@ -73,20 +76,38 @@ std::vector<Found> documents_in(const std::string& folder,
   return all;
 }
 
-/// Documents of a batch: what is one, or was to be one and cannot be read; anything else is not for a summary.
-std::vector<Found> read_all(const std::string& folder, std::vector<Found> all) {
+bool is_made(const Found& d, const std::string& way) {
+  return d.read && without_side_file(d.read->made_with) == way;
+}
+
+void read(const std::string& folder, Found& d) {
+  try {
+    d.read = read_document(place(folder, d.name));
+  } catch (const Error& e) {
+    d.read.reset();
+    d.fault = e.what();
+  }
+}
+
+/// Documents of a batch: what is one, or was to be one and cannot be read; anything else is not for a summary.  Of those that were not
+/// made in that way only the table's path is kept.
+std::vector<Found> read_all(const std::string& folder,
+                            std::vector<Found> all,
+                            const std::string& way) {
   MemoryBudget memory(memory_allowed() / 2);
+  std::atomic<std::size_t> kept = 0;
   tbb::parallel_for(std::size_t{0}, all.size(), [&](std::size_t i) {
-    const std::string path = place(folder, all[i].name);
+    Found& d = all[i];
     std::error_code unknown;
     constexpr double times_the_file = 33;  // of brackets within brackets
-    memory.with(times_the_file * static_cast<double>(fs::file_size(path, unknown)), [&] {
-      try {
-        all[i].read = read_document(path);
-      } catch (const Error& e) {
-        all[i].fault = e.what();
-      }
-    });
+    memory.with(times_the_file * static_cast<double>(fs::file_size(place(folder, d.name), unknown)),
+                [&] { read(folder, d); });
+    if (!d.read) return;
+    if (!is_made(d, way)) d.read->row = {std::move(d.read->row.path), "", {}, "", {}, {}};
+    if ((kept += memory_of(*d.read)) > most_of_all_rows)
+      throw bad_input(folder, "documents",
+                      fmt::format("more than {} bytes that a summary shows", most_of_all_rows),
+                      "fewer");
   });
   std::erase_if(all, [](const Found& d) { return !d.read && d.fault.empty(); });
   return all;
@@ -99,6 +120,22 @@ std::string usual_way(const std::vector<Found>& all) {
     if (d.read) ++count[without_side_file(d.read->made_with)];
   const auto most = std::ranges::max_element(count, {}, &std::pair<const std::string, int>::second);
   return most == count.end() ? "" : most->first;
+}
+
+/// Documents of a folder without a list, and the way that is usual.  Most often it is that of the first: then each is read once.
+std::pair<std::vector<Found>, std::string> read_all(const std::string& folder,
+                                                    const std::vector<Found>& all) {
+  std::string way;
+  for (Found first : all) {
+    read(folder, first);
+    if (!first.read) continue;
+    way = without_side_file(first.read->made_with);
+    break;
+  }
+  auto found = read_all(folder, all, way);
+  std::string usual = usual_way(found);
+  if (usual != way) found = read_all(folder, all, usual);
+  return {std::move(found), std::move(usual)};
 }
 
 /// Row of a document, with what lies beside it.
@@ -115,8 +152,13 @@ BatchSummary summary_of(const std::string& folder,
                         const std::optional<BatchList>& list,
                         std::map<std::string, BatchRow> known) {
   BatchSummary s;
-  auto found = read_all(folder, documents_in(folder, known));
-  s.made_with = list ? list->made_with : usual_way(found);
+  std::vector<Found> found = documents_in(folder, known);
+  if (list) {
+    s.made_with = list->made_with;
+    found = read_all(folder, std::move(found), s.made_with);
+  } else {
+    std::tie(found, s.made_with) = read_all(folder, found);
+  }
   const auto tables = list ? list->tables : std::vector<std::string>();
   const auto names = document_names(tables);
 
@@ -141,7 +183,7 @@ BatchSummary summary_of(const std::string& folder,
   for (auto& d : found) {
     if (!d.read) {
       leave_out(d, LeftOut::unreadable);
-    } else if (without_side_file(d.read->made_with) != s.made_with) {
+    } else if (!is_made(d, s.made_with)) {
       leave_out(d, LeftOut::made_otherwise);
     } else {
       const auto own = table_of_name.find(d.name);
@@ -242,10 +284,10 @@ BatchSummary gather(const std::string& folder,
     throw bad_input(folder, "entries", "no result of a fit", "documents of gonio fit -o DIR");
   for (const char* name : summary_names) expect_no_link(place(folder, name));
   expect_own(folder, {}, {summary_names.begin(), summary_names.end()});
-  const std::string data = batch_json(s, true);
   OutputFile csv(place(folder, "summary.csv")), page_data(place(folder, page_data_name));
   csv.write(batch_csv(s.rows));
-  page_data.write(data + "\n");
+  page_data.write(batch_json(s, true));
+  page_data.write("\n");
   std::optional<OutputFile> html;
   if (page) html.emplace(place(folder, "summary.html")).write(page(s, title_of(folder)));
   commit_all(std::array{&csv, &page_data, html ? &*html : nullptr});

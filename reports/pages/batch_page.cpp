@@ -364,6 +364,11 @@ std::string batch_page_html(const BatchSummary& s, const std::string& title) {
   std::size_t values = 0, flagged = 0, far = 0, not_converged = 0;
   double time = 0;
   Points failed{{}, "warnings"}, missing{s.missing, "warnings"};
+  // Any two parameters share a picture with a dot for each table.  Documents of strangers may name
+  // as many as they like.
+  constexpr double most_dots = 1 << 24;
+  const auto most = static_cast<std::size_t>(
+      std::clamp(std::sqrt(most_dots / static_cast<double>(s.rows.size() + 1)), 8.0, 64.0));
   for (const auto& r : s.rows) {
     if (!r.fit || !r.preview) {
       failed.each.push_back(fmt::format("**{}:** {}", words(name_of(r.outcome)), r.message));
@@ -377,7 +382,8 @@ std::string batch_page_html(const BatchSummary& s, const std::string& title) {
     not_converged += r.outcome == Exit::not_converged;
     for (const auto& [phase, ms] : r.fit->time_ms) time += ms;
     for (const auto& p : r.fit->parameters)
-      if (std::ranges::find(parameters, p.name) == parameters.end()) parameters.push_back(p.name);
+      if (parameters.size() < most && std::ranges::find(parameters, p.name) == parameters.end())
+        parameters.push_back(p.name);
   }
   const auto quantities = quantities_of(parameters);
   Pictures pictures;

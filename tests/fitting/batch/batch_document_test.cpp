@@ -180,6 +180,18 @@ TEST(BatchDocument, ADocumentWhoseListsDifferInLengthIsNotTaken) {
   }
 }
 
+TEST(BatchDocument, ADocumentWhoseRowWouldTakeMuchMemoryIsNotTaken) {
+  const auto line = [](std::size_t warnings, std::size_t letters) {
+    json d = json::parse(batch_document(a_fit(), *a_row().preview, "so"));
+    d["warnings"] = json(std::vector<std::string>(warnings));
+    d["batch"]["made_with"] = std::string(letters, 'm');
+    return test::refusal([&] { parse_document("a.json", d.dump()); });
+  };
+  EXPECT_EQ(line(500'000, 1000), "");
+  EXPECT_HAS(line(530'000, 1), "bytes that a summary shows of it, expected at most 16777216");
+  EXPECT_HAS(line(500'000, 1'000'000), "the document: found");
+}
+
 TEST(BatchDocument, DataHoldEveryTableAndTheCounts) {
   const json all = json::parse(batch_json({"so", {a_failure(), a_row()}}, true));
   EXPECT_EQ(all["schema"], "gonio.batch/1");

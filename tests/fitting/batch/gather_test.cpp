@@ -93,6 +93,18 @@ TEST(Gather, KnowsWithoutAListWhatLiesThere) {
   EXPECT_EQ(s.missing, Names{});
 }
 
+TEST(Gather, WithoutAListTakesTheUsualWayAlthoughTheFirstDocumentWasMadeOtherwise) {
+  const Tables t;
+  t.fit({t.paths[1], t.paths[2]});
+  t.fit({t.paths[0]}, {}, "relative");
+  fs::remove(t.out + "/summary.list.json");
+  const auto s = gather(t.out, {}, {});
+  ASSERT_EQ(paths_of(s), (Names{t.paths[1], t.paths[2]}));
+  for (const auto& r : s.rows) EXPECT_TRUE(r.fit && r.preview) << "it is read once more";
+  ASSERT_EQ(left_out(s, LeftOut::made_otherwise), Names{"a.json"});
+  EXPECT_EQ(s.left_out[0].path, t.paths[0]);
+}
+
 TEST(Gather, OfDocumentsMadeInTwoWaysTakesThoseThatTheListAsksFor) {
   const Tables t;
   t.fit({t.paths[0], t.paths[1]});

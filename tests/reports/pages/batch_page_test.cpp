@@ -29,5 +29,18 @@ TEST(BatchPage, GivesEachTableItsKeysAndLink) {
   EXPECT_NE(html.find("<a href=\"./a%20b.json\">x.csv</a>"), html.npos);
 }
 
+TEST(BatchPage, ShowsAFewOfManyParameters) {
+  BatchSummary s;
+  s.rows.push_back(row_of("a.csv", 0.25));
+  for (int k = 0; k < 1000; ++k) {
+    auto& all = s.rows[0].fit->parameters;
+    all.push_back(all[0]);
+    all.back().name = "of_a_stranger_" + std::to_string(k);
+  }
+  const auto html = batch_page_html(s, "t");
+  EXPECT_NE(html.find("of_a_stranger_62"), html.npos);
+  EXPECT_EQ(html.find("of_a_stranger_63"), html.npos);
+}
+
 }  // namespace
 }  // namespace gonio
