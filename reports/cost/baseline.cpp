@@ -6,8 +6,6 @@
 
 #include "base/json/reader.h"
 
-#include <nlohmann/json.hpp>
-
 namespace gonio {
 namespace {
 
@@ -32,8 +30,7 @@ CostName name_of(const CostRow& r) {
 
 namespace {
 
-EarlierCosts costs_in(const Json& json, const std::string& name) {
-  const JsonReader document(name, json);
+EarlierCosts costs_in(const JsonReader& document) {
   const auto schema = document.at("schema");
   if (const auto s = schema.string(); s != "gonio.bench/1" && s != "gonio.report.cost/1")
     schema.fail("gonio.bench/1 or gonio.report.cost/1");
@@ -42,17 +39,19 @@ EarlierCosts costs_in(const Json& json, const std::string& name) {
                    machine.at("compiler").string(),
                    machine.at("flags").string(),
                    {}};
-  for (const auto& row : document.at("rows").elements()) out.entries.push_back(entry(row));
+  const auto rows = document.at("rows");
+  if (!rows.is_array()) rows.fail("an array");
+  for (std::size_t i = 0; i < rows.size(); ++i) out.entries.push_back(entry(rows.at(i)));
   return out;
 }
 
 }  // namespace
 
 EarlierCosts read_costs(const std::string& path) {
-  return costs_in(read_json(path), path);
+  return costs_in(JsonDocument(path).root());
 }
 EarlierCosts costs_of(const std::string& text, const std::string& name) {
-  return costs_in(parse_json(name, text), name);
+  return costs_in(JsonDocument(name, text).root());
 }
 
 std::vector<CostChange> changes(const EarlierCosts& earlier,

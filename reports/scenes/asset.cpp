@@ -23,7 +23,8 @@ AssetMaterials asset_materials(const std::string& path) {
   const auto& list = file.list("materials");
   if (!list || list->size() == 0) file.root().fail("no material", "an asset that has some");
   AssetMaterials all;
-  for (const auto& entry : list->elements()) {
+  for (std::size_t k = 0; k < list->size(); ++k) {
+    const JsonReader entry = list->at(k);
     const std::string name = entry.has("name") ? entry.at("name").string() : "";
     try {
       Material m;

@@ -157,11 +157,6 @@ void expect_entries(const JsonReader& j, const Entries& n, const char* of) {
     j.fail(fmt::format("{} {}", of, j.size()), fmt::format("{} {}", of, words_of(n)));
 }
 
-void expect_array(const JsonReader& j, const Entries& n) {
-  if (!j.is_array()) j.fail("an array of " + words_of(n));
-  expect_entries(j, n, "an array of");
-}
-
 /// Object whose keys are read one after the other.
 class ObjectReader {
  public:
@@ -270,9 +265,9 @@ void read_at(const JsonReader& j, const ValueType& t, void* v, const Within& in)
       });
     case Kind::named:
       t.clear(v);
-      for (auto& [name, member] : members_in(j, in.rules.entries))
-        read_at(member, *t.of, t.append(v, std::move(name)), inner);
-      return;
+      return visit_members_in(j, in.rules.entries, [&](const auto& name, const auto& member) {
+        read_at(member, *t.of, t.append(v, std::string(name)), inner);
+      });
     case Kind::record: {
       ObjectReader object(j, in.others);
       object.read(*t.record, v);
@@ -287,10 +282,10 @@ void read_at(const JsonReader& j, const ValueType& t, void* v, const Within& in)
 void read_list(const JsonReader& j, const ValueType& t, void* v, const Within& in) {
   const Within inner = in.entries();
   if (t.size > 0) {
-    const auto entries = entries_in(j, {t.size, t.size});
-    auto next = entries.begin();
+    expect_array(j, {t.size, t.size});
+    std::size_t next = 0;
     return t.each(v, [&](std::string_view, const void* e) {
-      read_at(*next++, *t.of, const_cast<void*>(e), inner);
+      read_at(j.at(next++), *t.of, const_cast<void*>(e), inner);
     });
   }
   t.clear(v);
@@ -554,18 +549,20 @@ double number_in(const JsonReader& j, const Numbers& n) {
   return j.number();
 }
 
-std::vector<JsonReader> entries_in(const JsonReader& j, const Entries& n) {
-  expect_array(j, n);
-  return j.elements();
+void expect_array(const JsonReader& j, const Entries& n) {
+  if (!j.is_array()) j.fail("an array of " + words_of(n));
+  expect_entries(j, n, "an array of");
 }
 
-std::vector<std::pair<std::string, JsonReader>> members_in(const JsonReader& j, const Entries& n) {
+void visit_members_in(const JsonReader& j,
+                      const Entries& n,
+                      const std::function<void(const std::string&, const JsonReader&)>& visit) {
   j.expect_object();
   expect_entries(j, n, "an object of");
-  auto all = j.members();
-  for (const auto& [name, value] : all)
+  j.visit_members([&](const std::string& name, const JsonReader& value) {
     if (name.empty()) value.fail("a key without a name", "a name");
-  return all;
+    visit(name, value);
+  });
 }
 
 std::string text_in(const JsonReader& j) {

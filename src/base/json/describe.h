@@ -63,9 +63,12 @@ inline constexpr const JsonForm* json_form<Json> = &any_json;
 std::string either(const std::vector<std::string_view>& names);
 /// Number that is taken; null is none.
 double number_in(const JsonReader&, const Numbers&);
-/// Entries of an array, or members of an object, as many as are taken: refused before they are made.
-std::vector<JsonReader> entries_in(const JsonReader&, const Entries&);
-std::vector<std::pair<std::string, JsonReader>> members_in(const JsonReader&, const Entries&);
+/// Refuses what is no array of so many entries.
+void expect_array(const JsonReader&, const Entries&);
+/// Visits the members of an object that has so many, each with a name.
+void visit_members_in(const JsonReader&,
+                      const Entries&,
+                      const std::function<void(const std::string&, const JsonReader&)>&);
 std::string text_in(const JsonReader&);  ///< not empty, without zero bytes, which end a path
 
 /// Number, or null where it is not finite.

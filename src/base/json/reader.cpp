@@ -76,11 +76,23 @@ Members& members_of(Json& object) {
   return object.get_ref<Json::object_t&>();
 }
 
+/// Frees values from the innermost on.  The library would move all elements of a list into another one first, which takes nearly twice
+/// their memory.
+void take_apart(Json& j) {
+  if (j.is_array())
+    for (Json& element : j) take_apart(element);
+  else if (j.is_object())
+    for (auto& [key, value] : members_of(j)) take_apart(value);
+  if (j.is_structured()) j.clear();
+}
+
 /// Builds a document as it is read.  The library's own way looks every key up among those before it,
 /// one by one: that is quadratic in the keys of an object.
 class Builder final : public nlohmann::json_sax<Json> {
  public:
   Builder(const std::string& file, const std::string& bytes) : file_(file), bytes_(bytes) {}
+  ~Builder() override { take_apart(root_); }
+  Builder(const Builder&) = delete;
   Json take() { return std::move(root_); }
 
   bool null() override { return add(nullptr); }
@@ -274,19 +286,6 @@ void JsonReader::visit_members(
     visit(key, within(value, step_to(key, places_, place_.empty())));
 }
 
-std::vector<std::pair<std::string, JsonReader>> JsonReader::members() const {
-  std::vector<std::pair<std::string, JsonReader>> out;
-  visit_members([&](const auto& key, const auto& value) { out.emplace_back(key, value); });
-  return out;
-}
-
-std::vector<JsonReader> JsonReader::elements() const {
-  if (!is_array()) return {*this};
-  std::vector<JsonReader> out;
-  for (std::size_t i = 0; i < size(); ++i) out.push_back(at(i));
-  return out;
-}
-
 std::string JsonReader::string() const {
   if (!value_->is_string()) fail("a string");
   return value_->get<std::string>();
@@ -316,7 +315,10 @@ std::int64_t JsonReader::negative_number() const {
 std::vector<double> JsonReader::numbers() const {
   if (!is_array()) return {number()};
   std::vector<double> out(size());
-  for (std::size_t i = 0; i < out.size(); ++i) out[i] = at(i).number();
+  for (std::size_t i = 0; i < out.size(); ++i) {
+    const Json& value = (*value_)[i];  // a place for each would take most of the time
+    out[i] = value.is_number() ? value.get<double>() : at(i).number();
+  }
   if (out.empty()) fail("at least one number");
   return out;
 }
@@ -331,6 +333,8 @@ JsonDocument::JsonDocument(std::string file, Places places)
       document_(std::make_unique<Json>(read_json(file_))),
       root_(file_, *document_, "", places) {}
 
-JsonDocument::~JsonDocument() = default;
+JsonDocument::~JsonDocument() {
+  take_apart(*document_);
+}
 
 }  // namespace gonio

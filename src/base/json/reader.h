@@ -52,10 +52,9 @@ class JsonReader {
   bool is_negative() const;  ///< and a whole number
   bool is_string() const;
   std::size_t size() const;  ///< of an array or an object
-  std::vector<std::pair<std::string, JsonReader>> members() const;
-  /// Each member of an object, one after the other: of any number without memory for all.
+  /// Visits each member of an object.  Nobody keeps readers of all members, or of all elements of an array: each takes many times the
+  /// two bytes that its value may have in a file.
   void visit_members(const std::function<void(const std::string&, const JsonReader&)>&) const;
-  std::vector<JsonReader> elements() const;  ///< of an array, which may be empty; else it alone
   bool is_null() const;
   const Json& json() const { return *value_; }
   std::string string() const;
@@ -91,7 +90,7 @@ class JsonDocument {
 
  private:
   const std::string file_;
-  const std::unique_ptr<const Json> document_;
+  const std::unique_ptr<Json> document_;
   const JsonReader root_;
 };
 

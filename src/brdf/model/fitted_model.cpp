@@ -5,7 +5,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
-#include "base/json/reader.h"
+#include "base/json/describe.h"
 #include "base/text.h"
 #include "brdf/model/fit_misfit.h"
 #include "brdf/model/own_files.h"
@@ -56,14 +56,18 @@ FittedModel fitted_model(const JsonDocument& document) {
   constexpr const char* schema = "gonio.fit/1";
   if (root.at("schema").string() != schema) root.at("schema").fail(schema);
   FittedModel fit{root.at("model").string(), {}};
-  if (root.has("channels"))
-    for (const auto& channel : root.at("channels").elements())
-      fit.channels.push_back(channel.string());
+  if (root.has("channels")) {
+    const JsonReader channels = root.at("channels");
+    expect_array(channels, {});
+    for (std::size_t k = 0; k < channels.size(); ++k)
+      fit.channels.push_back(channels.at(k).string());
+  }
   if (root.has("input") && root.at("input").has("aperture"))
     fit.aperture_deg = root.at("input").at("aperture").numbers();
   fit.scale_is_free = root.has("ratios");
-  for (const auto& [name, parameter] : root.at("parameters").members())
+  root.at("parameters").visit_members([&](const auto& name, const JsonReader& parameter) {
     fit.parameters.emplace_back(name, parameter.at("value").numbers());
+  });
   return fit;
 }
 

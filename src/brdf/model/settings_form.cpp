@@ -14,9 +14,10 @@ void read(const JsonReader& j, void* value) {
   auto& g = *static_cast<GivenParameter*>(value);
   if (j.is_number())
     g.values = {j.number()};
-  else if (j.is_array())
-    for (const auto& v : entries_in(j, {1, 3})) g.values.push_back(number_in(v, {}));
-  else if (j.is_string())
+  else if (j.is_array()) {
+    expect_array(j, {1, 3});
+    for (std::size_t k = 0; k < j.size(); ++k) g.values.push_back(number_in(j.at(k), {}));
+  } else if (j.is_string())
     g.word = text_in(j);
   else
     j.fail("a number, an array of numbers, or a metal's symbol");

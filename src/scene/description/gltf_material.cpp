@@ -35,8 +35,10 @@ bool is_zero(const JsonReader& extension, const char* factor) {
   if (!extension.has(factor)) return true;
   const JsonReader value = extension.at(factor);
   if (!value.is_array()) return number_in(value, {}) == 0;
-  return std::ranges::all_of(entries_in(value, {3, 3}),
-                             [](const JsonReader& v) { return number_in(v, {}) == 0; });
+  expect_array(value, {3, 3});
+  bool all = true;
+  for (std::size_t k = 0; k < 3; ++k) all &= number_in(value.at(k), {}) == 0;
+  return all;
 }
 
 bool has_no_effect(std::string_view name, const JsonReader& extension) {

@@ -30,13 +30,13 @@ Json write_forms(const void* value) {
 }
 void read_forms(const JsonReader& j, void* value) {
   auto& forms = *static_cast<scene::Forms*>(value);
-  for (const auto& [name, form] : members_in(j, {0, scene::effect_count})) {
+  visit_members_in(j, {0, scene::effect_count}, [&](const auto& name, const JsonReader& form) {
     const auto effect = find_value<scene::Effect>(name);
     if (!effect) form.fail(fmt::format("'{}'", name), "an effect");
     const auto found = scene::find_form(*effect, form.string());
     if (!found) form.fail(either(names(scene::forms_of(*effect))));
     forms[*effect] = *found;
-  }
+  });
 }
 Json forms_schema() {
   Json of = Json::object();

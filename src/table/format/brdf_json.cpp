@@ -195,7 +195,7 @@ double uncertainty_in(const JsonReader& j, const JsonReader& f) {
 /// What head or metadata says in words and numbers.
 void add_notes(const JsonReader& about, Table& t, const std::string& before = "") {
   constexpr std::size_t most_notes = 64, longest = 400;
-  for (const auto& [name, value] : about.members()) {
+  about.visit_members([&](const std::string& name, const JsonReader& value) {
     if (t.notes.size() >= most_notes) return;
     if (value.is_string())
       t.notes.emplace_back(before + name, value.string().substr(0, longest));
@@ -203,7 +203,7 @@ void add_notes(const JsonReader& about, Table& t, const std::string& before = ""
       t.notes.emplace_back(before + name, fmt::format("{:g}", value.number()));
     else if (value.json().is_object() && before.empty())
       add_notes(value, t, name + ".");
-  }
+  });
 }
 
 void tell_polarisation(const std::map<std::string, std::size_t>& counts, Table& t) {
@@ -239,9 +239,12 @@ Table new_form(const JsonReader& data) {
   bool relative = false;  // uncertainties
   std::vector<std::size_t> labels;
   std::optional<std::size_t> polarisation;
-  const auto variables = data.at("variables").elements();
+  const JsonReader variables = data.at("variables");
+  constexpr std::size_t most_variables = 1024;
+  if (!variables.is_array() || variables.size() > most_variables)
+    variables.fail(fmt::format("an array of at most {}", most_variables));
   for (std::size_t k = 0; k < variables.size(); ++k) {
-    const auto& v = variables[k];
+    const JsonReader v = variables.at(k);
     const std::string name = v.at("name").string();
     Column c{k};
     const std::string unit = v.has("unit") && v.at("unit").is_string() ? v.at("unit").string() : "";
@@ -269,7 +272,7 @@ Table new_form(const JsonReader& data) {
   std::optional<Column> u;
   if (const auto at = columns.find("uBRDF"); at != columns.end()) {
     u = at->second;
-    const auto& about = variables[u->index];
+    const JsonReader about = variables.at(u->index);
     if (about.has("description") && about.at("description").is_string() &&
         is_expanded(about.at("description").string()))
       u->scale /= 2;
@@ -306,8 +309,7 @@ Table new_form(const JsonReader& data) {
   return t;
 }
 
-/// Entries of an array, or one that stands without.  Unlike JsonReader::elements() it takes no memory for each: there may be as many
-/// as a file has digits.
+/// Entries of an array, or one that stands without.
 class Entries {
  public:
   explicit Entries(const JsonReader& all) : all_(all), size_(all.is_array() ? all.size() : 1) {}

@@ -48,11 +48,11 @@ double number_within(const JsonReader& j, double low, double high) {
 Truth read_truth(const JsonReader& j) {
   Truth t;
   t.model = j.at("model").string();
-  for (const auto& [name, value] : j.at("parameters").members()) {
+  j.at("parameters").visit_members([&](const std::string& name, const JsonReader& value) {
     t.parameters.emplace_back(name, value.numbers());
     if (!std::ranges::all_of(t.parameters.back().second, [](double v) { return std::isfinite(v); }))
       value.fail("finite numbers");
-  }
+  });
   t.noise = number_within(j.at("noise"), 0, kAny);
   t.floor = number_within(j.at("floor"), 0, kAny);
   t.outliers = number_within(j.at("outliers"), 0, 1);
@@ -107,13 +107,14 @@ CosinePowers read_cosines(const JsonReader& j) {
 
 ColumnMap read_column_map(const std::string& file, const JsonReader& j) {
   ColumnMap map;
-  const auto members = j.members();
-  const auto channels = std::ranges::count_if(
-      members, [](const auto& m) { return m.first == "f" || m.first.starts_with("f_"); });
-  if (channels > static_cast<std::ptrdiff_t>(most_channels))
+  std::size_t channels = 0;
+  j.visit_members([&](const std::string& key, const JsonReader&) {
+    channels += key == "f" || key.starts_with("f_");
+  });
+  if (channels > most_channels)
     throw bad_input(file, "columns", fmt::format("{} channels", channels),
                     fmt::format("at most {}", most_channels));
-  for (const auto& [key, value] : members) {
+  j.visit_members([&](const std::string& key, const JsonReader& value) {
     if (is_role(key))
       map.columns.emplace_back(key, value.string());
     else if (key == "unit")
@@ -130,7 +131,7 @@ ColumnMap read_column_map(const std::string& file, const JsonReader& j) {
       map.skip = value.whole_number();
     else
       refuse_key(value);
-  }
+  });
   return map;
 }
 
@@ -146,17 +147,17 @@ std::vector<std::pair<std::string, std::string>> notes_of(const Table& t) {
   return all;
 }
 
-Json parse_side(const std::string& file, const std::string& text) {
-  Json document = parse_json(file, text);
-  const JsonReader root(file, document);
-  const auto members = root.members();
+/// Refuses what is no side file.
+JsonReader side_of(const JsonDocument& document) {
+  const JsonReader& root = document.root();
   const std::string expected = std::string("\"schema\": \"") + side_file_id + "\"";
-  if (!root.has("schema")) throw bad_input(file, "schema", "no such key", expected);
+  if (!root.has("schema")) throw bad_input(root.file(), "schema", "no such key", expected);
   if (root.at("schema").string() != side_file_id) root.at("schema").fail(expected);
   const auto& keys = keys_of<SideFile>();
-  for (const auto& [key, value] : members)
+  root.visit_members([&](const std::string& key, const JsonReader& value) {
     if (std::ranges::find(keys, key) == keys.end()) value.fail(no_such_key(keys));
-  return document;
+  });
+  return root;
 }
 
 }  // namespace
@@ -183,8 +184,8 @@ std::string side_file_schema() {
 }
 
 void apply_metadata(Table& t, const std::string& file, const std::string& text) {
-  const Json document = parse_side(file, text);
-  const JsonReader root(file, document);
+  const JsonDocument document(file, text);
+  const JsonReader root = side_of(document);
   expect_sha256(root, file, t.sha256);
   if (root.has("bins")) {
     if (!t.has_bins()) root.at("bins").fail("none: this table has no bins");
@@ -210,8 +211,9 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
     const auto j = root.at("uncertainty");
     const double relative = j.has("relative") ? number_within(j.at("relative"), 0, 1) : 0;
     const double floor = j.has("floor") ? number_within(j.at("floor"), 0, kAny) : 0;
-    for (const auto& [key, value] : j.members())
+    j.visit_members([](const std::string& key, const JsonReader& value) {
       if (key != "relative" && key != "floor") value.fail("no such key; relative or floor");
+    });
     if (!(relative > 0 || floor > 0)) j.fail("relative or floor above 0");
     t.errors = t.values;
     for (auto& plane : t.errors) {
@@ -220,24 +222,25 @@ void apply_metadata(Table& t, const std::string& file, const std::string& text) 
     }
   }
   if (root.has("notes"))
-    for (const auto& [name, note] : root.at("notes").members())
+    root.at("notes").visit_members([&](const std::string& name, const JsonReader& note) {
       t.notes.emplace_back(name, note.string());
+    });
 }
 
 void expect_same_table(const Table& t, const std::string& file, const std::string& text) {
-  const Json document = parse_side(file, text);
-  expect_sha256(JsonReader(file, document), file, t.sha256);
+  const JsonDocument document(file, text);
+  expect_sha256(side_of(document), file, t.sha256);
 }
 
 std::optional<ColumnMap> column_map(const std::string& file, const std::string& text) {
-  const Json document = parse_side(file, text);
-  const JsonReader root(file, document);
+  const JsonDocument document(file, text);
+  const JsonReader root = side_of(document);
   return root.has("columns") ? std::optional(read_column_map(file, root.at("columns")))
                              : std::nullopt;
 }
 
 std::string with_columns(const std::string& file, const std::string& text, const ColumnMap& map) {
-  Json document = text.empty() ? json_of(SideFile{}) : parse_side(file, text);
+  Json document = text.empty() ? json_of(SideFile{}) : side_of(JsonDocument(file, text)).json();
   document["columns"] = json_of(map);
   return text_of(document);
 }

@@ -2,12 +2,14 @@
 
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include "base/json/memory.h"
 #include "refusal.h"
 #include "support.h"
 
 #include <nlohmann/json.hpp>
+#include <sys/resource.h>
 
 namespace gonio {
 namespace {
@@ -45,10 +47,11 @@ TEST(ParseJson, OfAMillionKeysTakesLinearTime) {
   std::string text = "{\"0\":0";
   for (std::size_t i = 1; i < n; ++i) text += ",\"" + std::to_string(i) + "\":" + std::to_string(i);
   const Json document = parse_json("file", text + "}");
-  const auto members = JsonReader("file", document, "top").members();
-  ASSERT_EQ(members.size(), n);
-  EXPECT_EQ(members.back().first, "999999");
-  EXPECT_EQ(members.back().second.number(), 999'999);
+  std::size_t k = 0;
+  JsonReader("file", document, "top").visit_members([&](const auto& name, const auto& value) {
+    if (++k == n) EXPECT_EQ(name + " " + std::to_string(value.whole_number()), "999999 999999");
+  });
+  EXPECT_EQ(k, n);
 }
 
 TEST(ReadJson, RefusesADocumentOfTooManyBytesBeforeItIsRead) {
@@ -62,10 +65,10 @@ TEST(ReadJson, RefusesADocumentOfTooManyBytesBeforeItIsRead) {
 
 TEST(JsonReader, NamesThePlaceOfAMember) {
   const Json document = parse_json("file", R"({"a":{"b":"x"}})");
-  const auto members = JsonReader("file", document).at("a").members();
-  ASSERT_EQ(members.size(), 1U);
-  EXPECT_EQ(test::refusal([&] { members[0].second.number(); }),
-            "file: a.b: found \"x\", expected a number or null");
+  JsonReader("file", document).at("a").visit_members([](const auto&, const JsonReader& value) {
+    EXPECT_EQ(test::refusal([&] { value.number(); }),
+              "file: a.b: found \"x\", expected a number or null");
+  });
 }
 
 TEST(JsonReader, NamesPlacesAsPointersWhereAsked) {
@@ -87,8 +90,25 @@ TEST(JsonReader, OfManyValuesUnderALongNameTakesLinearMemory) {
   std::string text = "{\"" + std::string(1'000'000, 'n') + "\":[0";
   for (int i = 0; i < 100'000; ++i) text += ",0";
   const Json document = parse_json("file", text + "]}");
-  const auto members = JsonReader("file", document).members();
-  EXPECT_EQ(members[0].second.elements().size(), 100'001U);
+  std::vector<JsonReader> all;
+  JsonReader("file", document).visit_members([&](const auto&, const JsonReader& value) {
+    for (std::size_t i = 0; i < value.size(); ++i) all.push_back(value.at(i));
+  });
+  EXPECT_EQ(all.size(), 100'001U);
+}
+
+TEST(JsonDocument, IsFreedWithoutMoreMemory) {
+  const auto most_so_far = [] {
+    rusage usage{};
+    ::getrusage(RUSAGE_SELF, &usage);
+    return usage.ru_maxrss;  // kB
+  };
+  std::string text = "[0";
+  for (int i = 1; i < 1 << 22; ++i) text += ",0";
+  auto document = std::make_unique<JsonDocument>("file", text + "]");
+  const auto before = most_so_far();
+  document.reset();
+  EXPECT_LT(most_so_far() - before, 16'000) << "its values take 67 MB";
 }
 
 TEST(ParseJson, RefusesValuesThatTakeManyTimesTheirText) {

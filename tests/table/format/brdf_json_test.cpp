@@ -58,6 +58,15 @@ TEST(BrdfJson, ListsAFewOfManyPolarisations) {
   EXPECT_LT(t.warnings[0].size(), 600U);
 }
 
+TEST(BrdfJson, RefusesManyVariablesBeforeItReadsThem) {
+  std::string many = "[0";
+  for (int k = 0; k < 1024; ++k) many += ",0";
+  const auto line = test::refusal([&] {
+    table_of_json(R"({"head": {}, "data": {"values": [], "variables": )" + many + "]}}");
+  });
+  EXPECT_HAS(line, "data.variables: found an array, expected an array of at most 1024");
+}
+
 std::string old_form(const std::string& rows) {
   return R"({"head": {"date": "1.2.2020"}, "data": {"wavelengths": [700, 500], "theta_i": [0, 0, 45],
 "phi_i": [0, 0, 0], "theta_v": [-10, 20, 45], "phi_v": [0, 0, 180], "pol": "uuu", "data": )" +
