@@ -69,7 +69,7 @@ struct ReadDocument {
 };
 /// Memory that the rows of a document, and of all documents of a folder, take at most [bytes].
 inline constexpr std::size_t most_of_a_row = std::size_t{1} << 24,
-                             most_of_all_rows = std::size_t{1} << 30;
+                             most_of_all_rows = std::size_t{1} << 29;
 /// Memory that a document's row takes, about [bytes].
 std::size_t memory_of(const ReadDocument&);
 /// Document of a batch, read; no value of a document of anything else.  One that is not whole, or has a row that takes too much memory, is

@@ -112,6 +112,11 @@ Flags flags_of(const BatchRow& r) {
   if (!f.warnings.empty())
     out.emplace_back(many(f.warnings.size(), "warning"),
                      fmt::to_string(fmt::join(f.warnings, "\n")));
+  constexpr std::size_t longest = 4000;  // all of it is in the data
+  for (auto& [text, full] : out) {
+    text = beginning(text, longest);
+    full = beginning(full, longest);
+  }
   return out;
 }
 std::string flag_marks(const Flags& flags) {
@@ -368,7 +373,7 @@ std::string batch_page_html(const BatchSummary& s, const std::string& title) {
   // as many as they like.
   constexpr double most_dots = 1 << 24;
   const auto most = static_cast<std::size_t>(
-      std::clamp(std::sqrt(most_dots / static_cast<double>(s.rows.size() + 1)), 8.0, 64.0));
+      std::clamp(std::sqrt(most_dots / static_cast<double>(s.rows.size() + 1)), 8.0, 32.0));
   for (const auto& r : s.rows) {
     if (!r.fit || !r.preview) {
       failed.each.push_back(fmt::format("**{}:** {}", words(name_of(r.outcome)), r.message));
