@@ -110,9 +110,15 @@ void SpirvModule::declare(const Instruction& i, SpirvFunction*& f) {
       types_[i.id] = {i.op, 0, i.in[0], n};
       return;
     }
-    case spv::OpTypeStruct:
-      types_[i.id] = {i.op, 0, 0, 0, 0, {i.in.begin(), i.in.end()}};
+    case spv::OpTypeStruct: {
+      SpirvType t{i.op, 0, 0, 0, 0, {i.in.begin(), i.in.end()}};
+      // Empty ones, each of two of the one before, hold no number, and 60 of them 2⁶⁰ structs.
+      for (const Id m : t.members)
+        if ((t.parts += leaf(m).parts) > most_scalars)
+          throw Refused("a struct of more than 65536 parts", i.line);
+      types_[i.id] = std::move(t);
       return;
+    }
     case spv::OpTypePointer:
       types_[i.id] = {i.op, 0, i.in[1], 0, i.in[0]};
       return;
@@ -234,6 +240,8 @@ bool SpirvModule::is_of_numbers(Id id) const {
 }
 
 const SpirvType& SpirvModule::leaf(Id id) const {
+  static const SpirvType not_yet;  // a pointer's, which may be declared behind its struct
+  if (!types_.contains(id)) return not_yet;
   const SpirvType* t = &types_.at(id);
   while (t->op == spv::OpTypeVector || t->op == spv::OpTypeMatrix || t->op == spv::OpTypeArray)
     t = &types_.at(t->element);

@@ -21,6 +21,7 @@ struct SpirvType {
   Id element = 0;  ///< of a vector, matrix, array or pointer; of a function what it returns
   std::uint32_t count = 0, storage = 0;
   std::vector<Id> members{};
+  std::size_t parts = 1;  ///< of a struct, with those of its members
 };
 
 struct Instruction {

@@ -436,6 +436,27 @@ TEST(Function, SpirvIsReadAsItIs) {
             "");
 }
 
+TEST(Function, SpirvOfEmptyStructsThatDoubleIsRefused) {
+  SKIP_WITHOUT_SHADERS;
+  const auto line = [](std::uint32_t times) {
+    constexpr std::uint32_t function = 54, structure = 30;
+    auto words = compile(source_of("my.glsl", "float f(float NoH) { return NoH; }\n"));
+    std::size_t at = 5;
+    while ((words[at] & 0xffffU) != function) at += words[at] >> 16U;
+    std::vector<std::uint32_t> types{2U << 16U | structure, words[3]};
+    for (; times > 0; --times) {
+      const std::uint32_t before = words[3]++;
+      types.insert(types.end(), {4U << 16U | structure, before + 1, before, before});
+    }
+    ++words[3];
+    words.insert(words.begin() + static_cast<std::ptrdiff_t>(at), types.begin(), types.end());
+    return Written({reinterpret_cast<const char*>(words.data()), words.size() * 4}, "my.spv")
+        .refused();
+  };
+  EXPECT_EQ(line(15), "");
+  EXPECT_HAS(line(16), "a struct of more than 65536 parts");
+}
+
 TEST(FunctionName, IsReadAndWritten) {
   const auto n = parse_name("a/b.glsl:f{argument.x=noh;includes=pi;alpha=0.1,1,0.5}");
   EXPECT_EQ(n.file, "a/b.glsl");
