@@ -37,46 +37,34 @@ std::string plain(std::string_view name) {
   return s;
 }
 
-const std::map<std::string, std::string_view>& vectors() {
-  static const std::map<std::string, std::string_view> all{{"n", "N"},
-                                                           {"normal", "N"},
-                                                           {"nrm", "N"},
-                                                           {"worldnormal", "N"},
-                                                           {"l", "L"},
-                                                           {"light", "L"},
-                                                           {"lightdir", "L"},
-                                                           {"lightdirection", "L"},
-                                                           {"tolight", "L"},
-                                                           {"wi", "L"},
-                                                           {"v", "V"},
-                                                           {"view", "V"},
-                                                           {"viewdir", "V"},
-                                                           {"eye", "V"},
-                                                           {"viewdirection", "V"},
-                                                           {"toeye", "V"},
-                                                           {"toview", "V"},
-                                                           {"wo", "V"},
-                                                           {"h", "H"},
-                                                           {"half", "H"},
-                                                           {"halfvector", "H"},
-                                                           {"halfway", "H"},
-                                                           {"halfdir", "H"},
-                                                           {"x", "X"},
-                                                           {"t", "X"},
-                                                           {"tangent", "X"},
-                                                           {"y", "Y"},
-                                                           {"b", "Y"},
-                                                           {"bitangent", "Y"},
-                                                           {"binormal", "Y"}};
-  return all;
+/// What a vector of that name stands for; empty where it is none of the usual ones.  lightDirectionWS is as light.
+std::string vector_of(std::string s) {
+  static const std::map<std::string, std::string_view> all{
+      {"n", "N"},       {"normal", "N"},  {"nrm", "N"},  {"l", "L"},       {"light", "L"},
+      {"wi", "L"},      {"v", "V"},       {"view", "V"}, {"eye", "V"},     {"camera", "V"},
+      {"wo", "V"},      {"h", "H"},       {"half", "H"}, {"halfway", "H"}, {"x", "X"},
+      {"t", "X"},       {"tangent", "X"}, {"y", "Y"},    {"b", "Y"},       {"bitangent", "Y"},
+      {"binormal", "Y"}};
+  for (const std::string_view space : {"ws", "vs", "ts", "os"})
+    if (s.size() > 2 && s.ends_with(space)) s.resize(s.size() - space.size());
+  for (const std::string_view kind : {"direction", "vector", "dir", "vec"})
+    if (s.size() > kind.size() && s.ends_with(kind)) s.resize(s.size() - kind.size());
+  for (const std::string_view before : {"world", "surface", "to"})
+    if (s.size() > before.size() && s.starts_with(before)) s.erase(0, before.size());
+  const auto known = all.find(s);
+  return known == all.end() ? "" : std::string(known->second);
 }
+
+/// What --argument says of a parameter that no name says: how it enters a model.
+constexpr std::array<std::string_view, 8> roles{"f0",        "alpha",     "roughness", "smoothness",
+                                                "shininess", "basecolor", "metallic",  "eta"};
 
 /// The usual name of a cosine between two of n l v h t b, however it is written; empty where it is none.
 std::string cosine_of(const std::string& s) {
   if (s == "costheta" || s == "cosine" || s == "costhetad") return "voh";
   if (s == "costhetai" || s == "costhetal") return "nol";
   if (s == "costhetao" || s == "costhetav") return "nov";
-  if (s == "costhetah" || s == "costhetam") return "noh";
+  if (s == "costhetah" || s == "costhetam" || s == "cosh") return "noh";
   if (s == "sin2thetah" || s == "sinthetah2") return "sin2_theta_h";
   std::string pair = s;
   for (const char* between : {"dot", "o"})
@@ -101,15 +89,16 @@ std::string direction_of(const std::string& name, std::size_t size, const Readin
   const auto given = reading.arguments.find(name);
   const std::string s = plain(given == reading.arguments.end() ? name : given->second);
   std::string found;
-  if (size == 3) {
-    if (const auto v = vectors().find(s); v != vectors().end()) found = v->second;
-  } else if (size == 1) {
+  if (size == 3)
+    found = vector_of(s);
+  else if (size == 1)
     found = cosine_of(s);
-  }
-  if (given != reading.arguments.end() && found.empty() && s != "parameter")
+  const bool is_role = s == "parameter" || std::ranges::find(roles, s) != roles.end();
+  if (given != reading.arguments.end() && found.empty() && !is_role)
     throw wrong_usage(fmt::format(
-        "argument {}={}: expected {} of {}", name, given->second,
-        size == 3 ? "N, L, V, H, X or Y" : "nol, nov, noh, voh, lov, sin2_theta_h, xoh …", name));
+        "argument {}={}: expected {}; or of a parameter its role: {}", name, given->second,
+        size == 3 ? "N, L, V, H, X or Y" : "nol, nov, noh, voh, lov, sin2_theta_h, xoh …",
+        fmt::join(roles, ", ")));
   return found;
 }
 
@@ -497,10 +486,23 @@ class Builder {
     const bool of_cosines = std::ranges::none_of(f_.arguments, [](const Argument& a) {
       return a.stands_for == "L" || a.stands_for == "V" || a.stands_for == "H";
     });
-    return (l || v) && (!frame || (of_cosines && !half && !facing)) && f_.programs.size() == 1 &&
-                   named && n.find("diffuse") == n.npos
+    const bool may_be = (l || v) && (!frame || (of_cosines && !half && !facing)) &&
+                        f_.programs.size() == 1 && n.find("diffuse") == n.npos;
+    return may_be && (named || (l && v && of_cosines && !half && !facing && gives_v()))
                ? Stands::masking
                : Stands::lobe;
+  }
+  /// True of a value that is 1/4 along the normal, or 1 where the 4 stands elsewhere, and only grows towards the horizon: V.
+  bool gives_v() const {
+    const auto p = starts();
+    double last = 0;
+    for (const double theta : {0.0, 0.5, 1.0, 1.3, 1.5}) {
+      const double v = value_of(f_, p, between(theta, 0, theta, 0))[0];
+      if (theta == 0 && differ(v, 0.25) && differ(v, 1)) return false;
+      if (!(v > last)) return false;
+      last = v;
+    }
+    return true;
   }
 
   // ---- what a value includes
@@ -615,8 +617,12 @@ class Builder {
     f_.guessed = true;
     if (!takes_direction(f_)) return;  // a helper
     bool cosine = false;
-    for (const auto& p : settings)
-      if (const auto has = has_cosine(p)) {  // else nothing shines there, as with a default of 0
+    std::vector<double> brightest;  // there F is 1 whatever cosine it takes
+    for (const auto& p : f_.parameters) brightest.push_back(p.range.high);
+    auto all = settings;
+    all.push_back(std::move(brightest));
+    for (const auto& p : all)
+      if (const auto has = has_cosine(p)) {
         cosine = *has;
         break;
       }
@@ -624,7 +630,8 @@ class Builder {
     f_.includes = cosine && pi ? "cosine,pi" : cosine ? "cosine" : pi ? "pi" : "nothing";
   }
   /// Guesses whether a value is f NoL by reciprocity: f(l, v) = f(v, l) with the cosine taken out, not with it in; none where the value
-  /// is 0.  Shaders add 1e-5 to a cosine so that it is never 0: that is no cosine of their own.
+  /// is 0, as with a default of 0, or reciprocal neither way.  Shaders add 1e-5 to a cosine so that it is never 0: that is no cosine of
+  /// their own.
   std::optional<bool> has_cosine(const std::vector<double>& p) const {
     int plain_differs = 0, without_differs = 0, seen = 0;
     double plain_off = 0, without_off = 0;
@@ -643,7 +650,10 @@ class Builder {
       without_off = std::fmax(without_off, off(a / x[0], b / y[0]));
     }
     if (seen == 0) return {};
-    return plain_differs > 3 && (without_differs == 0 || without_off < 1e-3 * plain_off);
+    if (plain_differs <= 3) return false;
+    if (without_differs == 0 || without_off < 1e-3 * plain_off) return true;
+    constexpr double much = 1e-2;  // as of a slip, not of a guard
+    return plain_off > much && without_off > much ? std::optional<bool>() : false;
   }
   /// Rough albedo of the first channel where θ_v = 0.5, over rings about the mirror direction that are narrow near it: a lobe of
   /// any width is seen.

@@ -60,6 +60,44 @@ TEST(Function, CosinesAreKnownByTheirUsualNames) {
   }
 }
 
+TEST(Function, DirectionsAreKnownWhateverSpaceTheirNamesSay) {
+  SKIP_WITHOUT_SHADERS;
+  for (const auto& [n, l, v] :
+       {std::array<std::string, 3>{"normalWS", "lightDirectionWS", "viewDirectionWS"},
+        {"world_normal", "to_light", "eyeVec"},
+        {"nrm", "lightVector", "view_dir_vs"}}) {
+    const Written w("float f(vec3 " + n + ", vec3 " + l + ", vec3 " + v + ") { return dot(" + n +
+                    ", normalize(" + l + " + " + v + ")); }\n");
+    const auto f = w.function();
+    EXPECT_TRUE(f.parameters.empty()) << n << f.parameters[0].name;
+    ASSERT_EQ(f.arguments.size(), 3U);
+    EXPECT_EQ(f.arguments[1].stands_for, "L") << l;
+  }
+}
+
+TEST(Function, ARoleIsAParametersAndARefusalNamesAllRoles) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "// k 0 1 0.5\nfloat f(vec3 L, vec3 V, vec3 N, vec3 t, float k) { return t.x * k * dot(N, "
+      "normalize(L + V)); }\n");
+  EXPECT_EQ(w.function("{argument.k=f0;argument.t=basecolor}").parameters.size(), 2U);
+  EXPECT_HAS(w.refused("{argument.k=colour}", Exit::usage),
+             "of a parameter its role: f0, alpha, roughness, smoothness");
+}
+
+TEST(Function, AVisibilityOfAnyNameIsMaskingAndADiffuseFormIsNot) {
+  SKIP_WITHOUT_SHADERS;
+  const auto stands = [](const std::string& value) {
+    return Written("float cloth_term(float NoV, float NoL) { return " + value + "; }\n")
+        .function()
+        .stands;
+  };
+  EXPECT_EQ(stands("0.25 / (NoL + NoV - NoL * NoV)"), Stands::masking);
+  EXPECT_EQ(stands("1.0 / (NoL + NoV - NoL * NoV)"), Stands::masking) << "its 4 stands elsewhere";
+  EXPECT_EQ(stands("0.25 * (2.0 - pow(1.0 - NoL, 5.0)) * (1.0 - pow(1.0 - NoV, 5.0))"),
+            Stands::lobe);
+}
+
 TEST(Function, AnArgumentIsWhatItsReaderSays) {
   SKIP_WITHOUT_SHADERS;
   const Written w("// k 0 1\nfloat D(float c, float k) { return c * k; }\n");
@@ -248,6 +286,20 @@ TEST(Function, AHighlightThatIsBlackAtItsDefaultHasACosineNonetheless) {
                      "3.14159265358979 * dot(N, L); }\n")
                      .function();
   EXPECT_EQ(f.includes, "cosine");
+}
+
+TEST(Function, ACosineIsSeenThoughAnotherTermIsNotReciprocal) {
+  SKIP_WITHOUT_SHADERS;
+  const auto includes = [](const std::string& times) {
+    return Written(
+               "// f0 0 1 0.04\nfloat f(float NoL, float NoV, float NoH, float f0) { return (f0 + "
+               "(1.0 - f0) * pow(1.0 - NoV, 5.0)) * 0.2 * NoH" +
+               times + "; }\n")
+        .function()
+        .includes;
+  };
+  EXPECT_EQ(includes(" * NoL"), "cosine") << "F takes NoV, and is 1 where F0 is";
+  EXPECT_EQ(includes(""), "nothing");
 }
 
 TEST(Function, ARoughHighlightThatLosesLightDoesNotHideAFactorOfPi) {
