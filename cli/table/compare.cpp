@@ -1,4 +1,6 @@
 // gonio compare: how far a model is from a table.
+#include "reports/own/compare.h"
+
 #include <algorithm>
 #include <filesystem>
 
@@ -9,7 +11,7 @@
 #include "fitting/judge/assess.h"
 #include "fitting/result/document.h"
 #include "fitting/solve/problem.h"
-#include "reports/own/audit_file.h"
+#include "foreign/function.h"
 #include "table/format/formats.h"
 #include "table/format/measured_by.h"
 

@@ -25,17 +25,17 @@ struct Pairing {
   std::vector<std::optional<std::size_t>> of;
   std::optional<std::size_t> width;  ///< the file's, where the form has an alpha
 };
-Pairing pair_up(const TermEntry& own, const TermEntry& form) {
+Pairing pair_up(std::span<const Parameter> own, const TermEntry& form) {
   Pairing p;
-  const auto width = width_of(own.parameters);
+  const auto width = width_of(own);
   for (const auto& q : form.parameters) {
-    const auto same = std::ranges::find(own.parameters, q.name, &Parameter::name);
+    const auto same = std::ranges::find(own, q.name, &Parameter::meaning);
     std::optional<std::size_t> k;
     if (q.name == "alpha")
       k = p.width = width;
-    else if (same != own.parameters.end())
-      k = static_cast<std::size_t>(same - own.parameters.begin());
-    else if ((q.name == "f0" || q.name == "kd") && own.parameters.size() - width.has_value() == 1)
+    else if (same != own.end())
+      k = static_cast<std::size_t>(same - own.begin());
+    else if ((q.name == "f0" || q.name == "kd") && own.size() - width.has_value() == 1)
       k = width == 0 ? 1 : 0;
     p.of.push_back(k);
   }
@@ -82,7 +82,7 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
   const auto& rows = auditing::rows_of(own.role());
   NearestForm n;
   n.term = form;
-  if (pairing.width) n.width = own.parameters[*pairing.width].name;
+  if (pairing.width) n.width = known_parameters(term)[*pairing.width];
   n.power = power;
   std::vector<Values> f, g;
   constexpr std::size_t places = 5;
@@ -179,6 +179,7 @@ bool is_same(const NearestForm& n) {
 
 std::optional<NearestForm> nearest_form(std::size_t term) {
   const auto& own = catalogue()[term];
+  const auto known = known_parameters(term);
   std::optional<NearestForm> best;
   for (std::size_t form = 0; form < catalogue_size(); ++form) {
     const auto& entry = catalogue()[form];
@@ -192,10 +193,10 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       }
       continue;
     }
-    const Pairing pairing = pair_up(own, entry);
+    const Pairing pairing = pair_up(known, entry);
     static constexpr double as_it_is = 1;
     for (const double power :
-         pairing.width ? powers_of(own.parameters[*pairing.width].name) : std::span(&as_it_is, 1)) {
+         pairing.width ? powers_of(known[*pairing.width]) : std::span(&as_it_is, 1)) {
       const auto n = compared(term, form, pairing, power);
       if (!std::isfinite(n.difference)) continue;
       // Forms may differ by rounding only, near a narrow peak by 1e-5: the first is taken, and the
@@ -213,18 +214,19 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
   if (!is_same(n)) return all;
   const auto& own = catalogue()[term];
   const auto& f = *foreign_term(term)->function;
-  if (!n.width.empty()) {
-    const auto& w = n.width;
-    if (is_rough(w) && n.power == 4)
+  if (n.width) {
+    const auto& w = n.width->name;
+    const bool is_roughness = is_rough(*n.width);
+    if (is_roughness && n.power == 4)
       all.push_back(
           fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²", w, w, w));
     const bool is_squared = w.ends_with('2') || w.ends_with("sq");
     if (is_squared && n.power == 1)
       all.push_back(fmt::format("{} is taken for alpha: it has not been squared", w));
-    if (!is_rough(w) && !is_squared && n.power == 2)
+    if (!is_roughness && !is_squared && n.power == 2)
       all.push_back(
           fmt::format("{} is squared once too often: the form's alpha is {}² here", w, w));
-    if (!is_rough(w) && !is_squared && n.power == 0.5)
+    if (!is_roughness && !is_squared && n.power == 0.5)
       all.push_back(
           fmt::format("{} stands where {}² belongs: the form's alpha is √{} here", w, w, w));
   }
@@ -235,13 +237,13 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
                     n.norms->low, n.norms->high));
   else if (std::abs(n.factor - 1) > same_within && own.role() != Role::diffuse)
     all.push_back(factor_text(n.factor));
-  if (n.cap && n.width.size()) {
+  if (n.cap && n.width) {
     const double alpha = 1 / std::sqrt(std::numbers::pi * *n.cap / n.factor);  // of a GGX peak
     const double w = std::pow(alpha, 1 / n.power);
     all.push_back(
-        fmt::format("a clamp at {:.5g} cuts the peak below {} {:.3g}", *n.cap, n.width, w));
+        fmt::format("a clamp at {:.5g} cuts the peak below {} {:.3g}", *n.cap, n.width->name, w));
   }
-  if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, n.width, n.power));
+  if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, *n.width, n.power));
   if (own.role() == Role::masking) {
     const auto name = plain_name(f.name.function);
     if (f.is_g && (name.starts_with("v") && !name.starts_with("vg")))
@@ -252,19 +254,19 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
   return all;
 }
 
-std::vector<std::string> to_check(const std::string& width, double power) {
+std::vector<std::string> to_check(const Parameter& width, double power) {
   if (!is_rough(width) || power != 1) return {};
   return {fmt::format(
       "{} is taken for alpha: right where the caller has squared a roughness before; otherwise "
       "highlights are too wide",
-      width)};
+      width.name)};
 }
 
 std::vector<std::string> to_check(const NearestForm& n) {
   if (!is_same(n)) return {};
-  auto all = to_check(n.width, n.power);
+  auto all = n.width ? to_check(*n.width, n.power) : std::vector<std::string>{};
   if (catalogue()[n.term].id() == "masking.schlick_ggx.direct") all.emplace_back(k_of_direct_light);
-  if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, n.width, n.power));
+  if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, *n.width, n.power));
   return all;
 }
 
@@ -292,10 +294,10 @@ std::optional<Bite> bite_of(const Parameter& width,
   return b;
 }
 
-std::string text_of(const Bite& b, const std::string& width, double power) {
+std::string text_of(const Bite& b, const Parameter& width, double power) {
   return fmt::format(
       "a guard or a clamp cuts the peak {} {} {:.3g}: {:.2g} of it is left at {:.3g}{}",
-      narrows(power) ? "above" : "below", width, b.from, b.left, b.narrowest,
+      narrows(power) ? "above" : "below", width.name, b.from, b.left, b.narrowest,
       b.is_little ? "; right where no material is so smooth" : "");
 }
 

@@ -27,13 +27,13 @@ struct Bite {
 std::optional<Bite> bite_of(const Parameter& width,
                             double power,
                             const std::function<double(double)>& left);
-std::string text_of(const Bite&, const std::string& width, double power);
+std::string text_of(const Bite&, const Parameter& width, double power);
 
 struct NearestForm {
-  std::size_t term = 0;  ///< of the catalogue
-  std::string width;     ///< the file's parameter that stands for alpha; empty: none
-  double power = 1;      ///< alpha = width^power
-  double factor = 1;     ///< the file's value over the form's
+  std::size_t term = 0;            ///< of the catalogue
+  std::optional<Parameter> width;  ///< the file's parameter that stands for alpha
+  double power = 1;                ///< alpha = width^power
+  double factor = 1;               ///< the file's value over the form's
   double difference =
       0;  ///< largest, of a distribution over its peak; where it is capped, elsewhere
   std::optional<double> cap;  ///< the file's largest value, where it is less than the form's
@@ -47,7 +47,7 @@ std::optional<NearestForm> nearest_form(std::size_t foreign_term);
 /// The likely mistakes, a sentence each; empty where the function is what its names promise, or resembles no form.
 std::vector<std::string> likely_slips(std::size_t foreign_term, const NearestForm&);
 /// What is right for some callers and wrong for others, a sentence each.
-std::vector<std::string> to_check(const std::string& width, double power);
+std::vector<std::string> to_check(const Parameter& width, double power);
 std::vector<std::string> to_check(const NearestForm&);
 inline constexpr const char* k_of_direct_light =
     "its k is that of direct light, (roughness + 1)²/8: right for lamps; under an environment k = "

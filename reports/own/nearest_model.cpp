@@ -61,6 +61,20 @@ const Row& mirrored() {
   return row;
 }
 
+/// A Fresnel term that a function has where no parameter is F0, with its parameter.
+struct Interface {
+  std::string_view id;
+  double parameter;
+};
+std::vector<Interface> interfaces(const PartColours& colours,
+                                  std::span<const Parameter> parameters) {
+  if (!colours.f0.empty()) return {{}};
+  constexpr double of_dielectrics = 0.04;
+  if (!colours.eta) return {{"fresnel.schlick", of_dielectrics}};
+  const double eta = high_of(parameters[*colours.eta]), root = (eta - 1) / (eta + 1);
+  return {{"fresnel.dielectric", eta}, {"fresnel.schlick", root * root}};
+}
+
 /// A term's values over rows, by width.
 using ByWidth = std::vector<Values>;
 struct Form {
@@ -71,15 +85,24 @@ struct Form {
 /// A whole function with the parameters that make its parts, and the search for the model that it is.
 class Search {
  public:
-  Search(std::size_t term, std::size_t width, const PartColours& colours, const HalfVector& half)
-      : term_(term), own_(catalogue()[term]), width_(width), colours_(colours), half_(half) {
+  Search(std::size_t term,
+         std::size_t width,
+         const PartColours& colours,
+         const HalfVector& half,
+         const Interface& interface)
+      : term_(term),
+        own_(known_parameters(term)),
+        width_(width),
+        colours_(colours),
+        half_(half),
+        interface_(interface) {
     // Away from the horizon: shaders add to a denominator there.
     constexpr double least_cosine = 0.3;
     for (const auto& r : auditing::rows_of(Role::diffuse))
       (std::min(r.nol, r.nov) < least_cosine ? grazing_ : rows_).push_back(r);
-    widths_ = values_between(own_.parameters[width_], 4);
+    widths_ = values_between(own_[width_], 4);
     // The widest first: there no guard bites.
-    const auto powers = powers_of(own_.parameters[width_].name);
+    const auto powers = powers_of(own_[width_]);
     if (!narrows(powers[0])) std::ranges::reverse(widths_);
     for (const double power : powers)
       scaled_.push_back({power, forms(Role::ndf, power), forms(Role::masking, power)});
@@ -104,12 +127,17 @@ class Search {
   };
 
   Values highlight(double f0, double width, std::span<const Row> rows) const {
-    auto p = with_highlight(own_.parameters, colours_, f0, others_);
+    auto p = with_highlight(own_, colours_, f0, others_);
     p[width_] = width;
-    return values_in(Number::double_, term_, p, rows);
+    auto f = values_in(Number::double_, term_, p, rows);
+    if (interface_.id.empty()) return f;
+    const auto of = values_in(Number::double_, find_term(interface_.id),
+                              std::array{interface_.parameter}, as_taken(rows));
+    for (std::size_t i = 0; i < f.size(); ++i) f[i] /= of[i];
+    return f;
   }
   Values diffuse(double colour, Others others) const {
-    auto p = with_diffuse(own_.parameters, colours_, colour, others);
+    auto p = with_diffuse(own_, colours_, colour, others);
     p[width_] = widths_[0];
     return values_in(Number::double_, term_, p, rows_);
   }
@@ -171,9 +199,8 @@ class Search {
     const auto wanted = [&](std::size_t k, std::size_t i) {
       return d.values[k][i] * v.values[k][i] * disguise_->factor(rows_[i]);
     };
-    std::size_t peak = 0;
-    for (std::size_t i = 0; i < rows_.size(); ++i)
-      if (wanted(0, i) > wanted(0, peak)) peak = i;
+    const auto peak =
+        static_cast<std::size_t>(std::ranges::max_element(white_[0]) - white_[0].begin());
     const double factor = white_[0][peak] / wanted(0, peak);
     if (!(factor > 0) || !std::isfinite(factor)) return 0;
     const double least = 1e-30 * std::abs(white_[0][peak]);
@@ -191,7 +218,9 @@ class Search {
 
   NearestModel described(
       const Form& d, double d_power, const Form& v, double v_power, double factor) const {
-    NearestModel n{"", std::string(own_.parameters[width_].name), d_power, v_power, factor};
+    NearestModel n;
+    n.width = width_, n.colours = colours_;
+    n.power = d_power, n.masking_power = v_power, n.factor = factor;
     n.disguise = disguise_->slip;
     n.half_vector = half_.slip;
     const auto over_form = [&](const Values& f, double width, std::span<const Row> rows) {
@@ -201,7 +230,7 @@ class Search {
       for (std::size_t i = 0; i < rows.size(); ++i) r.push_back(f[i] / (factor * x[i] * y[i]));
       return r;
     };
-    n.bite = bite_of(own_.parameters[width_], d_power, [&](double w) {
+    n.bite = bite_of(own_[width_], d_power, [&](double w) {
       const std::span one(&mirrored(), 1);
       return over_form(highlight(1, w, one), w, one)[0] / disguise_->factor(mirrored());
     });
@@ -215,8 +244,8 @@ class Search {
     if (take_diffuse(n)) spec.diffuse = "lambert";
     n.spec = to_text(spec);
     const auto* f = foreign_term(term_);
-    const bool is_colour = f->function->programs.size() == 3 ||
-                           std::ranges::any_of(own_.parameters, &Parameter::per_channel);
+    const bool is_colour =
+        f->function->programs.size() == 3 || std::ranges::any_of(own_, &Parameter::per_channel);
     n.operations = operations_of(compose(spec, is_colour ? 3 : 1)).total();
     return n;
   }
@@ -237,7 +266,8 @@ class Search {
 
   /// Sets what is said of F, and returns the form of the catalogue that it is, if there is one.
   std::optional<std::size_t> take_fresnel(NearestModel& n, const auto& over_form) const {
-    const auto& colour = own_.parameters[colours_.f0[0]];
+    if (!interface_.id.empty()) return find_term(interface_.id);
+    const auto& colour = own_[colours_.f0[0]];
     const double f0 = low_of(colour) + 0.04 * (high_of(colour) - low_of(colour));
     auto f = over_form(highlight(f0, widths_[0], rows_), widths_[0], rows_);
     const bool is_of_f = disguise_ == &disguises[1];
@@ -267,12 +297,10 @@ class Search {
   /// Sets what is said of the diffuse part; true where it is Lambert's.
   bool take_diffuse(NearestModel& n) const {
     const bool has_colour = !colours_.diffuse.empty();
-    double high = 1, low = 0;
     Values with, without;
     if (has_colour) {
-      const auto& p = own_.parameters[colours_.diffuse[0]];
-      high = high_of(p), low = low_of(p);
-      with = diffuse(high, others_), without = diffuse(low, others_);
+      const auto& p = own_[colours_.diffuse[0]];
+      with = diffuse(high_of(p), others_), without = diffuse(low_of(p), others_);
     } else {
       with = diffuse(0, Others::usual), without = diffuse(0, Others::low);
     }
@@ -283,18 +311,15 @@ class Search {
     }
     const bool is_lambert = least > 0 && most < least * (1 + same_within);
     n.lacks_diffuse = !is_lambert && most > same_within;
-    // Weighted by 1 − F it is somewhat less.
-    if (const double of_lambert = most / (high - low) * std::numbers::pi;
-        has_colour && of_lambert > 0.93 * std::numbers::pi && of_lambert < 1.001 * std::numbers::pi)
-      n.diffuse_factor = std::numbers::pi;
     return is_lambert;
   }
 
   std::size_t term_;
-  const TermEntry& own_;
+  std::vector<Parameter> own_;
   std::size_t width_;
   PartColours colours_;
   HalfVector half_;
+  Interface interface_;
   std::vector<Row> rows_, grazing_;
   std::vector<double> widths_;
   std::vector<Scaled> scaled_;
@@ -306,51 +331,50 @@ class Search {
 }  // namespace
 
 std::optional<NearestModel> nearest_model(std::size_t term, std::string& why) {
-  const auto& own = catalogue()[term];
-  if (own.role() != Role::diffuse) return {};
-  const auto width = width_of(own.parameters);
-  if (!width) {
-    why = "no parameter is a width by its name, as alpha or roughness";
-    return {};
+  if (catalogue()[term].role() != Role::diffuse) return {};
+  const auto own = known_parameters(term);
+  std::vector<std::size_t> widths;
+  const auto named = width_of(own);
+  if (named) widths.push_back(*named);
+  for (std::size_t k = 0; k < own.size() && !named; ++k)
+    if (!is_colour(own[k]) && !is_eta(own[k])) widths.push_back(k);
+  auto colours = possible_colours(own);
+  const bool has_f0 = part_colours(own).has_value();
+  if (!has_f0) {
+    PartColours none;
+    for (std::size_t k = 0; k < own.size(); ++k)
+      if (is_colour(own[k])) none.diffuse.push_back(k);
+    colours.push_back(std::move(none));
   }
-  const auto colours = part_colours(own.parameters);
-  if (!colours) {
-    why = "no parameter is F0 by its name, as f0, specularColor, or albedo beside metallic";
-    return {};
-  }
-  std::optional<NearestModel> n;
-  for (const auto& half : half_vectors)
-    if (!n) n = Search(term, *width, *colours, half).found();
-  if (!n)
-    why = fmt::format("no D and V of ours make its highlight at any power of {}",
-                      own.parameters[*width].name);
-  return n;
-}
-
-std::vector<std::string> likely_slips(const NearestModel& n) {
-  std::vector<std::string> all;
-  if (std::abs(n.factor - 1) > same_within)
-    all.push_back("its highlight is " + factor_text(n.factor));
-  if (!n.disguise.empty()) all.push_back(n.disguise);
-  if (!n.half_vector.empty()) all.push_back(n.half_vector);
-  if (n.diffuse_factor != 1) all.push_back("its diffuse part is " + factor_text(n.diffuse_factor));
-  if (n.power != n.masking_power)
-    all.push_back(fmt::format("alpha is {} in D and {} in V: expected one alpha for both",
-                              alpha_text(n.width, n.power), alpha_text(n.width, n.masking_power)));
-  if (is_rough(n.width) && n.power == 4)
-    all.push_back(fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²",
-                              n.width, n.width, n.width));
-  if (!n.fresnel_slip.empty()) all.push_back(n.fresnel_slip);
-  if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, n.width, n.power));
-  if (!n.horizon.empty()) all.push_back(n.horizon);
-  return all;
-}
-
-std::vector<std::string> to_check(const NearestModel& n) {
-  auto all = to_check(n.width, n.power);
-  if (n.spec.find("/schlick_ggx.direct/") != n.spec.npos) all.emplace_back(k_of_direct_light);
-  if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, n.width, n.power));
-  return all;
+  // What names say is looked at with all half vectors, and everything else with the right one.
+  for (const auto& c : colours)
+    for (const auto width : widths)
+      for (const auto& half : half_vectors) {
+        const bool is_said = named && has_f0 && &c == colours.data();
+        if (!is_said && &half != half_vectors.data()) continue;
+        for (const auto& i : interfaces(c, own))
+          if (auto n = Search(term, width, c, half, i).found()) {
+            if (!is_said && !c.f0.empty() && !is_f0(own[c.f0[0]]))
+              n->f0 = stem_of(own[c.f0[0]].name);
+            if (const auto said = part_colours(own);
+                !is_said && said && said->metallic && n->disguise.empty() && !c.f0.empty() &&
+                std::ranges::find(said->diffuse, c.f0[0]) != said->diffuse.end()) {
+              const auto& metallic = own[*said->metallic];
+              n->disguise =
+                  fmt::format("{0} is F0 where {1} is {2:.4g}: expected where it is {3:.4g}", n->f0,
+                              metallic.name, low_of(metallic), high_of(metallic));
+            }
+            return n;
+          }
+      }
+  why = !named ? "no parameter is a width by its name, as alpha or roughness; --argument "
+                 "NAME=roughness says which"
+        : !has_f0
+            ? "no parameter is F0 by its name, as f0, specularColor, or albedo beside metallic; "
+              "--argument NAME=f0 says which"
+            : fmt::format("no D and V of ours make its highlight at any power of {}",
+                          own[*named].name);
+  return {};
 }
 
 }  // namespace gonio

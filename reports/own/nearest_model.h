@@ -8,20 +8,22 @@
 #include <vector>
 
 #include "reports/own/nearest.h"
+#include "reports/own/parameters.h"
 
 namespace gonio {
 
 /// Model of the catalogue whose highlight a whole function has.
 struct NearestModel {
   std::string spec;
-  std::string width;
+  std::size_t width = 0;  ///< parameter of the function
+  PartColours colours;
+  std::string f0;            ///< the parameter that is F0, where its name does not say so
   double power = 1;          ///< of D: alpha = width^power
   double masking_power = 1;  ///< of V
   double factor = 1;         ///< the function's highlight over the model's
   std::size_t operations = 0;
   bool lacks_diffuse =
       false;  ///< the function has a diffuse part that is not Lambert's, which the model has not
-  double diffuse_factor = 1;   ///< its diffuse part over Lambert's, where that is 1 or π
   bool other_fresnel = false;  ///< F is that of none of ours
   std::string disguise;        ///< what its highlight is multiplied with, a sentence
   std::string fresnel_slip;    ///< a sentence
@@ -34,8 +36,11 @@ struct NearestModel {
 /// \param why  why there is none
 std::optional<NearestModel> nearest_model(std::size_t foreign_term, std::string& why);
 /// The likely mistakes in its factor, its width and its parts, a sentence each.
-std::vector<std::string> likely_slips(const NearestModel&);
+/// \param guessed_pi  that its value includes π is a guess
+std::vector<std::string> likely_slips(const NearestModel&, const Parameter& width, bool guessed_pi);
+/// "its highlight is 4 times too large: a 4 is missing below"
+std::string highlight_text(double factor, bool guessed_pi);
 /// What is right for some uses and wrong for others, a sentence each.
-std::vector<std::string> to_check(const NearestModel&);
+std::vector<std::string> to_check(const NearestModel&, const Parameter& width);
 
 }  // namespace gonio

@@ -5,10 +5,29 @@
 #include <cmath>
 
 #include "base/letters.h"
+#include "brdf/catalogue/foreign_terms.h"
 
 namespace gonio {
 
+std::vector<Parameter> known_parameters(std::size_t term) {
+  const auto of = catalogue()[term].parameters;
+  std::vector<Parameter> all(of.begin(), of.end());
+  const auto* foreign = foreign_term(term);
+  for (auto& p : all) {
+    p.meaning = p.name;
+    if (!foreign) continue;
+    for (const auto& [name, role] : foreign->function->name.reading.arguments)
+      if (role != "parameter" && (name == p.name || name == stem_of(p.name))) p.meaning = role;
+  }
+  return all;
+}
+
 std::string plain_name(std::string_view name) {
+  constexpr std::string_view prefixes = "umg";
+  const auto is_upper = [](char c) { return c != lower_case(c); };
+  if (name.size() > 2 && prefixes.find(name[0]) != prefixes.npos &&
+      (name[1] == '_' || (is_upper(name[1]) && !is_upper(name[0]))))
+    name.remove_prefix(1);
   std::string s;
   for (const char c : name)
     if (c != '_') s += lower_case(c);
@@ -20,31 +39,56 @@ std::string_view stem_of(std::string_view n) {
                                                                      : n;
 }
 
+namespace {
+
+/// The name that says what a parameter stands for, of a colour without its channel.
+std::string known_as(const Parameter& p) {
+  return plain_name(stem_of(p.meaning));
+}
+
+}  // namespace
+
+bool is_f0(const Parameter& p) {
+  const auto n = known_as(p);
+  return n.starts_with("f0") || n == "r0" || n == "ks" || n == "spec" || n.starts_with("spec0") ||
+         n == "specf0" || n.starts_with("speccol") ||
+         (n.starts_with("specular") && n.find("tint") == n.npos && !is_exponent(p));
+}
+
 bool is_colour(const Parameter& p) {
-  const std::string n = plain_name(p.name);
-  return p.per_channel || stem_of(p.name) != p.name ||
-         std::ranges::any_of(std::array{"f0", "r0", "kd", "ks", "albedo", "diffuse", "specular"},
+  const auto n = known_as(p);
+  return p.per_channel || stem_of(p.name) != p.name || is_f0(p) ||
+         std::ranges::any_of(std::array{"kd", "albedo", "diffuse", "specular"},
                              [&](const char* begin) { return n.starts_with(begin); }) ||
          n.find("color") != n.npos || n.find("colour") != n.npos;
 }
 
-bool is_rough(std::string_view name) {
-  return plain_name(name).find("rough") != std::string::npos;
+bool is_rough(const Parameter& p) {
+  return known_as(p).find("rough") != std::string::npos;
 }
 
-bool is_exponent(std::string_view name) {
-  const auto n = plain_name(name);
+bool is_exponent(const Parameter& p) {
+  const auto n = known_as(p);
   return n.find("shin") != n.npos || n.find("expo") != n.npos || n == "n" || n == "power" ||
          n == "specpower" || n == "specularpower";
+}
+
+bool is_anisotropy(const Parameter& p) {
+  return known_as(p).find("aniso") != std::string::npos;
+}
+
+bool is_eta(const Parameter& p) {
+  const auto n = known_as(p);
+  return n == "eta" || n == "ior";
 }
 
 std::optional<std::size_t> width_of(std::span<const Parameter> parameters) {
   for (const auto* name : {"alpha", "rough", "gloss", "smooth", "sigma", "width"})
     for (std::size_t k = 0; k < parameters.size(); ++k)
-      if (plain_name(parameters[k].name).starts_with(name)) return k;
+      if (known_as(parameters[k]).starts_with(name)) return k;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto n = plain_name(parameters[k].name);
-    if (is_exponent(n) || n == "a" || n == "a2" || n == "m" || n == "r" ||
+    const auto n = known_as(parameters[k]);
+    if (is_exponent(parameters[k]) || n == "a" || n == "a2" || n == "m" || n == "r" ||
         n.find("rough") != n.npos)
       return k;
   }
@@ -80,13 +124,26 @@ double alpha_of(double width, double power) {
                                       : std::pow(width, power);
 }
 
-std::span<const double> powers_of(std::string_view width) {
+namespace {
+constexpr std::array of_glosses{of_gloss, of_gloss_as_alpha};
+
+bool is_gloss(const Parameter& p) {
+  const auto n = known_as(p);
+  return n.find("gloss") != n.npos || n.find("smooth") != n.npos;
+}
+}  // namespace
+
+std::span<const double> powers_of(const Parameter& width) {
   static constexpr std::array powers{1.0, 2.0, 0.5, 4.0};
-  static constexpr std::array of_glosses{of_gloss, of_gloss_as_alpha};
-  const auto n = plain_name(width);
   if (is_exponent(width)) return {&of_exponent, 1};
-  if (n.find("gloss") != n.npos || n.find("smooth") != n.npos) return of_glosses;
-  return powers;
+  return is_gloss(width) ? std::span<const double>(of_glosses) : powers;
+}
+
+std::span<const double> conventions_of(const Parameter& width) {
+  static constexpr std::array of_roughness{2.0, 1.0}, others{1.0, 2.0};
+  if (is_exponent(width) || is_gloss(width)) return powers_of(width);
+  if (known_as(width) == "alpha") return std::span(others).first(1);
+  return is_rough(width) ? of_roughness : others;
 }
 
 bool narrows(double power) {
@@ -104,16 +161,12 @@ std::string alpha_text(const std::string& w, double power) {
 }
 
 std::optional<PartColours> part_colours(std::span<const Parameter> parameters) {
-  const auto is_f0 = [](const Parameter& p) {
-    const auto n = plain_name(stem_of(p.name));
-    return n == "f0" || n == "r0" || n == "ks" || n.starts_with("speccol") ||
-           (n.starts_with("specular") && n.find("tint") == n.npos && !is_exponent(n));
-  };
   PartColours c;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto& p = parameters[k];
-    const auto n = plain_name(stem_of(p.name));
+    const auto n = known_as(p);
     if (n.starts_with("metal")) c.metallic = k;
+    if (is_eta(p)) c.eta = k;
     if (is_f0(p))
       c.f0.push_back(k);
     else if (is_colour(p) && n.find("sheen") == n.npos && n.find("coat") == n.npos &&
@@ -121,8 +174,24 @@ std::optional<PartColours> part_colours(std::span<const Parameter> parameters) {
       c.diffuse.push_back(k);
   }
   if (c.metallic && !c.diffuse.empty()) c.f0 = c.diffuse;
-  if (c.f0.empty()) return {};
+  if (!c.f0.empty()) c.eta.reset();
+  if (c.f0.empty() && !c.eta) return {};
   return c;
+}
+
+std::vector<PartColours> possible_colours(std::span<const Parameter> parameters) {
+  std::vector<PartColours> all;
+  if (auto named = part_colours(parameters)) all.push_back(std::move(*named));
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto stem = stem_of(parameters[k].name);
+    if (!is_colour(parameters[k]) || (k > 0 && stem == stem_of(parameters[k - 1].name))) continue;
+    PartColours c;
+    for (std::size_t j = 0; j < parameters.size(); ++j)
+      if (is_colour(parameters[j]))
+        (stem_of(parameters[j].name) == stem ? c.f0 : c.diffuse).push_back(j);
+    all.push_back(std::move(c));
+  }
+  return all;
 }
 
 namespace {
@@ -132,8 +201,11 @@ std::vector<double> plain_values(std::span<const Parameter> parameters, Others o
   for (const auto& p : parameters) {  // a second width, as of a coat, divides
     const bool is_low = is_colour(p)
                             ? !std::isnan(p.start)
-                            : others == Others::low && !std::isnan(p.start) && !is_rough(p.name);
-    v.push_back(is_low ? low_of(p) : is_colour(p) ? 0 : usual_of(p));
+                            : others == Others::low && !std::isnan(p.start) && !is_rough(p);
+    v.push_back(is_anisotropy(p) && p.legal.holds(0) ? 0
+                : is_low && !is_anisotropy(p)        ? low_of(p)
+                : is_colour(p)                       ? 0
+                                                     : usual_of(p));
   }
   return v;
 }
@@ -157,7 +229,9 @@ std::vector<double> with_highlight(std::span<const Parameter> parameters,
                                    const PartColours& colours,
                                    double f0,
                                    Others others) {
-  return with_part(parameters, colours, colours.f0, f0, high_of, others);
+  auto v = with_part(parameters, colours, colours.f0, f0, high_of, others);
+  if (colours.eta) v[*colours.eta] = high_of(parameters[*colours.eta]);
+  return v;
 }
 
 std::vector<double> with_diffuse(std::span<const Parameter> parameters,

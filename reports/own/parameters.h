@@ -13,16 +13,25 @@
 
 namespace gonio {
 
-/// A name in lower case without underscores.
+/// A term's parameters.  The `meaning` of each is the name by which gonio knows what it stands for: its own, or the role that
+/// --argument gives it.
+std::vector<Parameter> known_parameters(std::size_t term);
+/// A name in lower case without underscores, and without a prefix as that of uRoughness.
 std::string plain_name(std::string_view);
 /// "tint" of "tint_r": the channels of a colour are one.
 std::string_view stem_of(std::string_view name);
 /// True of a parameter that scales the light: a colour, one channel of it, or f0, kd and their like.
 bool is_colour(const Parameter&);
+/// Whether it is F0 by its name.
+bool is_f0(const Parameter&);
 /// Whether a parameter's name says roughness, whose square alpha is.
-bool is_rough(std::string_view name);
+bool is_rough(const Parameter&);
 /// Whether it is the exponent of a cosine.
-bool is_exponent(std::string_view name);
+bool is_exponent(const Parameter&);
+/// Whether it stretches a lobe along the tangent or the bitangent.
+bool is_anisotropy(const Parameter&);
+/// Whether it is a ratio of indices of refraction.
+bool is_eta(const Parameter&);
 /// The parameter whose name says that it is a width: alpha, roughness, m …
 std::optional<std::size_t> width_of(std::span<const Parameter>);
 
@@ -37,7 +46,9 @@ std::vector<double> values_between(const Parameter&, std::size_t count);
 inline constexpr double of_exponent = -2, of_gloss = -3, of_gloss_as_alpha = -4;
 double alpha_of(double width, double power);
 /// Those that a width of that name may have, the likeliest first.
-std::span<const double> powers_of(std::string_view width);
+std::span<const double> powers_of(const Parameter& width);
+/// Of these the ones that are conventions, not slips, the likeliest first.
+std::span<const double> conventions_of(const Parameter& width);
 /// True where more of the width is a narrower lobe.
 bool narrows(double power);
 /// "roughness²", "√(2/(n + 2))"
@@ -47,13 +58,17 @@ std::string alpha_text(const std::string& width, double power);
 struct PartColours {
   std::vector<std::size_t> f0, diffuse;  ///< the same where there is a metallic
   std::optional<std::size_t> metallic;
+  std::optional<std::size_t> eta;  ///< that stands for F0 where nothing else does
 };
-/// By the names f0, specular, ks …, or albedo and metallic; none where nothing has such a name.
+/// By the names f0, specular, ks …, or albedo and metallic, or eta; none where nothing has such a name.
 std::optional<PartColours> part_colours(std::span<const Parameter>);
+/// Those that may be: by the names, and then with each other colour as F0, whatever its name.
+std::vector<PartColours> possible_colours(std::span<const Parameter>);
 
 /// Parameters that are neither a width nor colour one of the parts.
 enum class Others { low, usual };
-/// Values with which only the highlight is left, of that F0; and only the diffuse part, but for a highlight of the least F0.
+/// Values with which only the highlight is left, of that F0, or of the largest eta; and only the diffuse part, but for a highlight of
+/// the least F0.
 std::vector<double> with_highlight(std::span<const Parameter>,
                                    const PartColours&,
                                    double f0,

@@ -119,13 +119,15 @@ std::string slip_form(std::size_t term) {
   const auto& own = catalogue()[term];
   const auto& rows = auditing::rows_of(own.role());
   if (own.role() == Role::fresnel) {
-    const auto colours = part_colours(own.parameters);
-    if (!colours && own.parameters.size() != 1) return "";
-    const auto& f0 = own.parameters[colours ? colours->f0[0] : 0];
+    const auto colours = part_colours(known_parameters(term));
+    const bool has_f0 = colours && !colours->f0.empty();
+    if (!has_f0 && own.parameters.size() != 1) return "";
+    const std::size_t k = has_f0 ? colours->f0[0] : 0;
+    const auto& f0 = own.parameters[k];
     Values p;
     for (const auto& q : own.parameters) p.push_back(usual_of(q));
     const double at = low_of(f0) + 0.1 * (high_of(f0) - low_of(f0));
-    p[colours ? colours->f0[0] : 0] = at;
+    p[k] = at;
     return fresnel_slip(at, rows, values_in(Number::double_, term, p, rows), false);
   }
   if (own.anisotropic && own.role() == Role::masking && own.parameters.size() == 2)
@@ -139,13 +141,14 @@ std::string slip_form(std::size_t term) {
     };
     return std::ranges::all_of(rows, is) ? "4 times that of Neubelt: a 4 is missing below" : "";
   }
-  const auto width = width_of(own.parameters);
+  const auto known = known_parameters(term);
+  const auto width = width_of(known);
   if (!width || own.anisotropic || own.role() == Role::diffuse) return "";
   std::span<const SlipForm> forms = of_masking;
   if (own.role() == Role::ndf) forms = of_distribution;
   constexpr std::size_t places = 4;
   const auto widths = values_between(own.parameters[*width], places);
-  for (const double power : powers_of(own.parameters[*width].name))
+  for (const double power : powers_of(known[*width]))
     for (const auto& s : forms) {
       bool is = true;
       for (std::size_t k = 0; is && k < places; ++k) {

@@ -1,0 +1,56 @@
+#include "reports/own/in_half.h"
+
+#include "base/letters.h"
+#include "brdf/catalogue/registry.h"
+#include "reports/finding/words.h"
+#include "stability/answer.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+namespace {
+
+std::string half_text(const stability::Answer& a, std::optional<std::size_t> decides) {
+  if (a.holds) return "finite for every input of its domain";
+  std::string s = "not finite";
+  if (a.counterexample) {
+    std::vector<std::string> in;
+    for (const auto& [n, v] : a.counterexample->inputs)
+      in.push_back(fmt::format("{} {:.4g}", n, v));
+    s += fmt::format(" at {}", fmt::join(in, ", "));
+  } else {
+    s = "open: a search found nothing, and there is no proof";
+  }
+  if (!a.safe_from || !a.safe_from->value || !decides) return s;
+  const auto& [name, range] = a.domain[*decides];
+  const double from = *a.safe_from->value;
+  // From its lower end on says nothing.
+  if (from - range.front() < 1e-3 * (range.back() - range.front())) return s;
+  s += fmt::format("; from {} {} on it is finite ({})", name, rounded_up(from, 4),
+                   name_of(a.safe_from->evidence));
+  return s;
+}
+
+}  // namespace
+
+std::string in_half(stability::Subject subject, const Domain& domain, bool proves) {
+  stability::Question q;
+  q.subject = std::move(subject);
+  for (const auto& [name, range] : domain)
+    for (const auto& i : q.subject.inputs)
+      if (same_letters(i.name, name)) stability::set_domain(q.subject, i.name, range);
+  constexpr double unbounded = 1e29;  // looked at where the laws are
+  for (auto& i : q.subject.inputs)
+    if (i.domain.high > unbounded) i.domain = {0.05, 1};
+  q.boxes = 2000;
+  q.proves = proves;
+  return half_text(stability::answer(q), q.subject.decides);
+}
+
+std::string in_half(std::size_t term, const Domain& domain) {
+  return in_half(stability::subjects_of_term(term).back(), domain,
+                 catalogue()[term].role() != Role::diffuse);
+}
+
+}  // namespace gonio

@@ -1,0 +1,137 @@
+#include "reports/own/laws.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "brdf/catalogue/foreign_terms.h"
+#include "brdf/in_number/number.h"
+#include "geometry/direction.h"
+#include "integrate/albedo/normalisation.h"
+#include "reports/measure/samples.h"
+#include "reports/own/parameters.h"
+
+namespace gonio {
+namespace {
+
+using auditing::Row;
+using auditing::Values;
+
+/// Five widths, both ends among them.
+std::vector<double> widths_of(const Parameter& p) {
+  auto at = values_between(p, 5);
+  at.front() = low_of(p);
+  at.back() = high_of(p);
+  return at;
+}
+
+using Settings = std::vector<std::vector<double>>;
+
+/// Values of parameters that laws are looked at with: five widths with the ends and the default of some others, colours at their
+/// upper ends; and each parameter at its ends with the others at their defaults.
+Settings looked_at(std::span<const Parameter> parameters) {
+  const auto width = width_of(parameters);
+  const auto is_width = [&](const Parameter& p) { return width && &p == &parameters[*width]; };
+  std::size_t rows = 1;
+  constexpr std::size_t many = 60;
+  auto all = auditing::combinations(parameters, [&](const Parameter& p) {
+    const auto at = is_width(p)    ? widths_of(p)
+                    : is_colour(p) ? std::vector{high_of(p)}
+                    : rows > many || std::isnan(p.start)
+                        ? std::vector{usual_of(p)}
+                        : std::vector{p.legal.low, p.start, p.legal.high};
+    rows *= at.size();
+    return at;
+  });
+  std::vector<double> usual;
+  for (const auto& p : parameters) usual.push_back(usual_of(p));
+  for (const double w :
+       width ? std::vector{low_of(parameters[*width]), usual[*width], high_of(parameters[*width])}
+             : std::vector{0.0}) {
+    auto at = usual;
+    if (width) at[*width] = w;
+    all.push_back(at);
+    for (std::size_t k = 0; k < parameters.size(); ++k)
+      for (const double v : {low_of(parameters[k]), high_of(parameters[k])}) {
+        if (is_width(parameters[k])) continue;
+        auto one = at;
+        one[k] = v;
+        all.push_back(one);
+      }
+  }
+  return all;
+}
+
+/// Directions nearer to the horizon than those that laws are looked at with: there many shaders divide by 0 or take roots of less.
+std::vector<Row> grazing() {
+  std::vector<Row> rows;
+  for (const double nol : {0.001, 0.01, 0.03, 0.5, 1.0})
+    for (const double nov : {0.001, 0.01, 0.03, 0.5, 1.0})
+      for (const double phi : {0.0, 90.0, 180.0})
+        rows.push_back(auditing::row(std::acos(nol), 0, std::acos(nov), phi * degree));
+  return rows;
+}
+
+bool takes_both_cosines(const foreign::Function& f) {
+  const auto takes = [&](std::string_view scalar, std::string_view vector) {
+    return std::ranges::any_of(f.arguments, [&](const foreign::Argument& a) {
+      return a.stands_for == scalar || a.stands_for == vector;
+    });
+  };
+  return takes("nol", "L") && takes("nov", "V");
+}
+
+}  // namespace
+
+Laws laws_of(const foreign::Function& f, std::size_t term) {
+  Laws a;
+  const Role role = catalogue()[term].role();
+  const auto parameters = known_parameters(term);
+  const auto settings = looked_at(parameters);
+  const auto& rows = auditing::rows_of(role);
+  std::vector<Row> other;
+  for (const auto& r : rows) other.push_back(auditing::exchanged(r));
+  const auto horizon = role == Role::ndf || role == Role::fresnel ? std::vector<Row>{} : grazing();
+  constexpr double below_by_rounding = 1e-12;  // as (1 − VoH)⁵ is where VoH rounds to more than 1
+  const auto count_finite = [&](const std::vector<double>& v, const Values& p,
+                                const std::vector<Row>& at) {
+    for (std::size_t i = 0; i < v.size(); ++i) {
+      if (std::isfinite(v[i])) continue;
+      if (a.not_finite++ == 0)
+        a.not_finite_at = auditing::joined(auditing::text(parameters, p), auditing::text(at[i]));
+    }
+  };
+  for (const auto& p : settings)
+    for (std::size_t c = 0; c < f.programs.size(); ++c) {
+      count_finite(values_in(Number::double_, term + c, p, horizon), p, horizon);
+      const auto v = values_in(Number::double_, term + c, p, rows);
+      const auto w = values_in(Number::double_, term + c, p, other);
+      count_finite(v, p, rows);
+      for (std::size_t i = 0; i < v.size(); ++i) {
+        if (!std::isfinite(v[i])) continue;
+        const auto at = [&] {
+          return auditing::joined(auditing::text(parameters, p), auditing::text(rows[i]));
+        };
+        if (v[i] < -below_by_rounding) take_smallest(a.lowest, v[i], at());
+        const double size = std::max(std::abs(v[i]), std::abs(w[i]));
+        const double off = std::abs(v[i] - w[i]);
+        if ((role == Role::diffuse || role == Role::masking) && size > 0 &&
+            (!a.reciprocity || off / size > a.reciprocity->value))
+          a.reciprocity = FoundAt{off / size, at()};
+      }
+    }
+  if (role == Role::diffuse && a.not_finite == 0 && takes_both_cosines(f)) {
+    const Row behind = auditing::row(100 * degree, 0, 30 * degree, 90 * degree);
+    const auto v = values_in(Number::double_, term, settings[0], std::span(&behind, 1));
+    a.fails_behind = !std::isfinite(v[0]);
+  }
+  // Masking by one cosine is half of a product, which alone keeps the law.
+  if (role == Role::masking && !takes_both_cosines(f)) a.reciprocity.reset();
+  if (role == Role::ndf)
+    for (const auto& p : settings)
+      if (const double v = normalisation(term, p).value;
+          !a.normalisation || std::abs(v - 1) > std::abs(a.normalisation->value - 1))
+        a.normalisation = FoundAt{v, auditing::text(parameters, p)};
+  return a;
+}
+
+}  // namespace gonio

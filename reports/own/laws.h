@@ -1,0 +1,25 @@
+#pragma once
+/// \file
+/// The laws that a function of a person's file keeps or breaks, over its parameters and over directions.
+
+#include <cstddef>
+#include <optional>
+#include <string>
+
+#include "foreign/function.h"
+#include "reports/own/energy.h"
+
+namespace gonio {
+
+struct Laws {
+  std::optional<FoundAt> normalisation;  ///< ∫ D cos θ dω, furthest from 1
+  std::optional<FoundAt>
+      reciprocity;                ///< largest relative difference with light and view exchanged
+  std::optional<FoundAt> lowest;  ///< below 0, else none
+  std::size_t not_finite = 0;     ///< of the inputs looked at, in double
+  std::string not_finite_at;      ///< the first of them
+  bool fails_behind = false;      ///< a whole model has no value for a light behind the horizon
+};
+Laws laws_of(const foreign::Function&, std::size_t foreign_term);
+
+}  // namespace gonio

@@ -1,0 +1,46 @@
+// What the nearest model says of slips, in sentences.
+#include <cmath>
+#include <numbers>
+
+#include "reports/own/nearest_model.h"
+#include "reports/own/parameters.h"
+
+#include <fmt/format.h>
+
+namespace gonio {
+
+std::string highlight_text(double factor, bool guessed_pi) {
+  if (const double off = std::abs(factor * std::numbers::pi - 1); !guessed_pi || off > 0.02)
+    return "its highlight is " + factor_text(factor);
+  return "its diffuse part is π times too large beside its highlight: 1/π is missing; or, if its "
+         "value includes π, the highlight is divided by π once too often";
+}
+
+std::vector<std::string> likely_slips(const NearestModel& n,
+                                      const Parameter& width,
+                                      bool guessed_pi) {
+  std::vector<std::string> all;
+  if (std::abs(n.factor - 1) > same_within) all.push_back(highlight_text(n.factor, guessed_pi));
+  if (!n.disguise.empty()) all.push_back(n.disguise);
+  if (!n.half_vector.empty()) all.push_back(n.half_vector);
+  const std::string name(width.name);
+  if (n.power != n.masking_power)
+    all.push_back(fmt::format("alpha is {} in D and {} in V: expected one alpha for both",
+                              alpha_text(name, n.power), alpha_text(name, n.masking_power)));
+  if (is_rough(width) && n.power == 4)
+    all.push_back(
+        fmt::format("{0} is squared once too often: alpha is {0}⁴ here, expected {0}²", name));
+  if (!n.fresnel_slip.empty()) all.push_back(n.fresnel_slip);
+  if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, width, n.power));
+  if (!n.horizon.empty()) all.push_back(n.horizon);
+  return all;
+}
+
+std::vector<std::string> to_check(const NearestModel& n, const Parameter& width) {
+  auto all = to_check(width, n.power);
+  if (n.spec.find("/schlick_ggx.direct/") != n.spec.npos) all.emplace_back(k_of_direct_light);
+  if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, width, n.power));
+  return all;
+}
+
+}  // namespace gonio

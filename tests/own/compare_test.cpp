@@ -1,0 +1,109 @@
+// A person's functions beside ours: which parameters stand for which, and how far apart the two
+// are.
+#include "reports/own/compare.h"
+
+#include "own/own_shaders.h"
+#include "refusal.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+using test::Folder;
+
+TEST(CompareTerms, AWholeModelIsComparedWithOurs) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path = folder.write("t.glsl", tutorial("4.0"));
+  const auto c = compare_with_model(path, "lambert+ggx/smith_ggx.separable/schlick", {});
+  EXPECT_LT(c.largest, 1e-6) << c.at;
+  EXPECT_GT(c.operations_b, 20U);
+  const auto engine = folder.write(
+      "e.glsl",
+      replaced(
+          replaced(tutorial("4.0"), "// f0 0 1 0.04", "// Specular 0 1 0.5\n// metallic 0 1 0"),
+          "vec3 f0, vec3 albedo) {",
+          "float Specular, float metallic, vec3 albedo) {\n  vec3 f0 = mix(vec3(0.08 * Specular), "
+          "albedo, metallic);"));
+  const auto by_engine = compare_with_model(engine, "lambert+ggx/smith_ggx.separable/schlick", {});
+  EXPECT_LT(by_engine.largest, 1e-6) << by_engine.at;
+  EXPECT_HAS(by_engine.pairs, "f0 = 0.08 Specular; only yours: metallic 0");
+  EXPECT_HAS(text_of(c), "kd = albedo, alpha = roughness², f0 = f0\n");
+  const auto metal =
+      folder.write("m.glsl", replaced(tutorial("4.0"), "vec3 f0, vec3 albedo)",
+                                      "vec3 f0, float Metallic, vec3 BaseColor)\n#define albedo "
+                                      "(BaseColor * (1.0 - Metallic))\n"));
+  EXPECT_HAS(compare_with_model(metal + ":brdf{Metallic=0,1,0;BaseColor=0,1,0.5}",
+                                "lambert+ggx/smith_ggx.separable/schlick", {})
+                 .pairs,
+             "kd = BaseColor, alpha = roughness², f0 = f0; only yours: Metallic 0");
+}
+
+TEST(CompareTerms, ADistributionBesideOursAndAMaskingReadBothWays) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path =
+      folder.write("two.glsl", ggx("float a2 = alpha * alpha;", whole, "alpha") +
+                                   "float Vis(float NoL, float NoV, float alpha) {\n  float a2 = "
+                                   "alpha * alpha;\n  return 2.0 * NoL * NoV / "
+                                   "(NoV * sqrt(NoL * NoL * (1.0 - a2) + a2) + NoL * sqrt(NoV * "
+                                   "NoV * (1.0 - a2) + a2));\n}\n");
+  const auto d = compare_terms(path + ":D_GGX", "ndf.ggx", {{"Alpha", {0.1, 1}}});
+  EXPECT_LT(d.largest, 1e-12);
+  EXPECT_EQ(d.half_a, "finite for every input of its domain");
+  const auto v =
+      compare_terms(path + ":Vis", "masking.smith_ggx.correlated", {{"alpha", {0.1, 1}}});
+  EXPECT_EQ(v.read_as, "G");
+  EXPECT_LT(v.largest, 1e-9);
+  const auto beckmann = compare_terms(path + ":D_GGX", "ndf.beckmann", {{"alpha", {0.1, 1}}});
+  EXPECT_GT(beckmann.largest, 0.01);
+}
+
+TEST(CompareTerms, AWidthIsTheOthersAlphaByTheMapThatItsNameAllows) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto compared = [&](const std::string& width, const std::string& alpha) {
+    const auto path = folder.write(width.substr(0, 3) + ".glsl",
+                                   model_of("float " + width + ", vec3 f0 0 1 0.04",
+                                            "D_GGX(NoH, " + alpha + ") * V_Smith(NoL, NoV, " +
+                                                alpha + ") * (f0 + (1.0 - f0) * p)"));
+    return compare_with_model(path + ":model", "ggx/smith_ggx.correlated/schlick", {});
+  };
+  const auto smooth = compared("smoothness 0 0.9 0.5", "((1.0 - smoothness) * (1.0 - smoothness))");
+  EXPECT_LT(smooth.largest, 1e-6) << smooth.at;
+  EXPECT_HAS(smooth.pairs, "alpha = (1 − smoothness)²");
+  const auto exponent = compared("shininess 1 1000 50", "sqrt(2.0 / (shininess + 2.0))");
+  EXPECT_LT(exponent.largest, 1e-6) << exponent.at;
+  EXPECT_HAS(exponent.pairs, "alpha = √(2/(shininess + 2))");
+  const auto slip = compared("alpha 0.1 1 0.5", "(alpha * alpha)");
+  EXPECT_GT(slip.largest, 0.5) << "a square too many is no map that a name allows";
+}
+
+TEST(CompareTerms, TwoWidthsVaryOnBothSides) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path = folder.write(
+      "two.glsl",
+      "// ax 0.1 1 0.3\n// ay 0.1 1 0.3\nfloat D(float XoH, float YoH, float NoH, float ay, float "
+      "ax) {\n  float s = XoH * XoH / (ax * ax) + YoH * YoH / (ay * ay) + NoH * NoH;\n  return 1.0 "
+      "/ "
+      "(3.14159265358979 * ax * ay * s * s);\n}\n");
+  const auto d = compare_terms(path, "ndf.ggx_aniso", {});
+  EXPECT_LT(d.largest, 1e-9) << d.at;
+  EXPECT_EQ(d.pairs, "alpha_x = ax, alpha_y = ay");
+  EXPECT_GT(compare_terms(path, "ndf.beckmann_aniso", {}).largest, 0.01);
+  const auto stretched = folder.write(
+      "one.glsl",
+      "// rough 0.3 1 0.5\n// anisotropy 0 0.9 0.3\nfloat D(float XoH, float YoH, float NoH, float "
+      "rough, float anisotropy) {\n  float k = sqrt(1.0 - 0.9 * anisotropy), x = rough * rough / "
+      "k, y "
+      "= rough * rough * k;\n  float s = XoH * XoH / (x * x) + YoH * YoH / (y * y) + NoH * NoH;\n  "
+      "return 1.0 / (3.14159265358979 * x * y * s * s);\n}\n");
+  const auto one = compare_terms(stretched, "ndf.ggx_aniso", {});
+  EXPECT_LT(one.largest, 1e-9) << one.at;
+  EXPECT_HAS(one.pairs, "alpha_x = rough² / √(1 − 0.9 anisotropy)");
+}
+
+}  // namespace
+}  // namespace gonio
