@@ -86,12 +86,12 @@ TEST(CompareTerms, TwoWidthsVaryOnBothSides) {
   const auto path = folder.write(
       "two.glsl",
       "// ax 0.1 1 0.3\n// ay 0.1 1 0.3\nfloat D(float XoH, float YoH, float NoH, float ay, float "
-      "ax) {\n  float s = XoH * XoH / (ax * ax) + YoH * YoH / (ay * ay) + NoH * NoH;\n  return 1.0 "
+      "ax) {\n  float s = XoH * XoH / (ay * ay) + YoH * YoH / (ax * ax) + NoH * NoH;\n  return 1.0 "
       "/ "
       "(3.14159265358979 * ax * ay * s * s);\n}\n");
   const auto d = compare_terms(path, "ndf.ggx_aniso", {});
   EXPECT_LT(d.largest, 1e-9) << d.at;
-  EXPECT_EQ(d.pairs, "alpha_x = ax, alpha_y = ay");
+  EXPECT_EQ(d.pairs, "alpha_x = ay, alpha_y = ax");
   EXPECT_GT(compare_terms(path, "ndf.beckmann_aniso", {}).largest, 0.01);
   const auto stretched = folder.write(
       "one.glsl",
