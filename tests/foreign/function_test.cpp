@@ -292,8 +292,9 @@ TEST(Function, ACosineIsSeenThoughAnotherTermIsNotReciprocal) {
   SKIP_WITHOUT_SHADERS;
   const auto includes = [](const std::string& times) {
     return Written(
-               "// f0 0 1 0.04\nfloat f(float NoL, float NoV, float NoH, float f0) { return (f0 + "
-               "(1.0 - f0) * pow(1.0 - NoV, 5.0)) * 0.2 * NoH" +
+               "// tint 0 1 0.2\n// metallic 0 1 0\nfloat f(float NoL, float NoV, float NoH, "
+               "float tint, float metallic) { float f0 = mix(0.04, tint, metallic); return (f0 "
+               "+ (1.0 - f0) * pow(1.0 - NoV, 5.0)) * 0.2 * NoH" +
                times + "; }\n")
         .function()
         .includes;
