@@ -14,7 +14,8 @@ namespace gonio::cli {
 
 void add_reading(Command& c, ReadingWords& words, bool bounds) {
   c.option("--argument", words.arguments,
-           "For a shader's function: what an argument stands for, x=noh; n=parameter")
+           "For a shader's function: what an argument stands for, x=noh; n=parameter; spec=f0 for "
+           "the role of a parameter")
       .at_most(64);
   c.option("--includes", words.includes,
            "For a shader's function: what its value has beside f: nothing, cosine (times NoL), pi "

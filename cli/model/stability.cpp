@@ -70,9 +70,9 @@ std::string evidence_text(const Answer& a) {
 }
 
 /// "alpha 0.0042 (roughness 0.065)", "nowhere"
-std::string least_text(const Least& l, const std::string& decides) {
+std::string least_text(const Least& l, const std::string& decides, bool narrows) {
   if (!l.value) return "nowhere";
-  const auto value = rounded_up(*l.value, 4);
+  const auto value = narrows ? rounded_down(*l.value, 4) : rounded_up(*l.value, 4);
   return is_alpha(decides) ? fmt::format("{} {} ({} {})", decides, value, roughness_name(decides),
                                          rounded_up(roughness_of(*l.value), 3))
                            : fmt::format("{} {}", decides, value);
@@ -87,7 +87,8 @@ bool is_relative(const Answer& a) {
 }
 
 /// \param decides  name of the parameter from which a requirement holds
-void print(const Answer& a, const std::string& decides) {
+/// \param narrows  or up to which
+void print(const Answer& a, const std::string& decides, bool narrows) {
   const auto line = [](const char* name, const std::string& text) {
     fmt::print("  {:<16}{}\n", name, text);
   };
@@ -122,12 +123,15 @@ void print(const Answer& a, const std::string& decides) {
   if (a.proved_rel) line("proved", fmt::format("{:.2g} relative at most", *a.proved_rel));
   if (a.range) line("within", fmt::format("{:.6g} to {:.6g}, proved", a.range->low, a.range->high));
   if (const auto& from = a.safe_from)
-    line("safe from",
-         fmt::format("{}{}: {}{}, {}", least_text(*from, decides),
+    line(narrows ? "safe up to" : "safe from",
+         fmt::format("{}{}: {}{}, {}", least_text(*from, decides, narrows),
                      from->evidence == Evidence::searched && a.arithmetic.any_gpu
                          ? " in IEEE arithmetic"
                          : "",
-                     from->requirement, from->value ? " from there on" : " holds from no value on",
+                     from->requirement,
+                     !from->value ? " holds at no value"
+                     : narrows    ? " up to there"
+                                  : " from there on",
                      evidence_of_least(*from)));
   for (const auto& l : a.least)
     line(&l == &a.least[0] ? "least" : "",
@@ -135,7 +139,7 @@ void print(const Answer& a, const std::string& decides) {
                      a.arithmetic.number != Number::half ? ""
                      : l.flush                           ? "flushed"
                                                          : "kept",
-                     least_text(l, decides), evidence_of_least(l)));
+                     least_text(l, decides, narrows), evidence_of_least(l)));
   if (!a.looked.settled) line("not settled", "searches from two seeds differ: there may be worse");
 }
 
@@ -163,7 +167,7 @@ Exit run(const StabilityCall& o) {
   if (o.json)
     fmt::print("{}", to_json(a));
   else
-    print(a, q.subject.decides ? q.subject.inputs[*q.subject.decides].name : "");
+    print(a, q.subject.decides ? q.subject.inputs[*q.subject.decides].name : "", q.subject.narrows);
   return a.holds ? Exit::done : Exit::check_failed;
 }
 

@@ -70,7 +70,7 @@ double OwnAlbedo::along_normal(const std::vector<double>& values) const {
 }
 
 FoundAt OwnAlbedo::found(const Place& p, bool smallest) const {
-  const double value = at(p.values, std::span(&p.mu, 1), p.phi_deg, {1e-5, 400'000}, smallest)[0];
+  const double value = at(p.values, std::span(&p.mu, 1), p.phi_deg, {1e-5}, smallest)[0];
   FoundAt f{value,
             auditing::joined(auditing::text(parameters_, p.values), fmt::format("NoV {}", p.mu))};
   if (anisotropic_) f.at += fmt::format(", φ {}°", p.phi_deg);

@@ -11,7 +11,7 @@
 namespace gonio {
 namespace {
 
-std::string half_text(const stability::Answer& a, std::optional<std::size_t> decides) {
+std::string half_text(const stability::Answer& a, const stability::Subject& subject) {
   if (a.holds) return "finite for every input of its domain";
   std::string s = "not finite";
   if (a.counterexample) {
@@ -22,13 +22,16 @@ std::string half_text(const stability::Answer& a, std::optional<std::size_t> dec
   } else {
     s = "open: a search found nothing, and there is no proof";
   }
-  if (!a.safe_from || !a.safe_from->value || !decides) return s;
-  const auto& [name, range] = a.domain[*decides];
+  if (!a.safe_from || !a.safe_from->value || !subject.decides) return s;
+  const auto& [name, range] = a.domain[*subject.decides];
   const double from = *a.safe_from->value;
-  // From its lower end on says nothing.
-  if (from - range.front() < 1e-3 * (range.back() - range.front())) return s;
-  s += fmt::format("; from {} {} on it is finite ({})", name, rounded_up(from, 4),
-                   name_of(a.safe_from->evidence));
+  // From its lower end on says nothing, nor up to its upper end.
+  const double part = (from - range.front()) / (range.back() - range.front());
+  constexpr double little = 1e-3;
+  if (subject.narrows ? part > 1 - little : part < little) return s;
+  s += subject.narrows ? fmt::format("; up to {} {} it is finite", name, rounded_down(from, 4))
+                       : fmt::format("; from {} {} on it is finite", name, rounded_up(from, 4));
+  s += fmt::format(" ({})", name_of(a.safe_from->evidence));
   return s;
 }
 
@@ -45,7 +48,7 @@ std::string in_half(stability::Subject subject, const Domain& domain, bool prove
     if (i.domain.high > unbounded) i.domain = {0.05, 1};
   q.boxes = 2000;
   q.proves = proves;
-  return half_text(stability::answer(q), q.subject.decides);
+  return half_text(stability::answer(q), q.subject);
 }
 
 std::string in_half(std::size_t term, const Domain& domain) {

@@ -72,7 +72,9 @@ std::optional<Least> least_of(const Question& q,
   Least least{required.text(), a.flush, looked.from(required.kind), looked.evidence};
   if (looked.evidence == Evidence::exhaustive && !a.any_gpu) return least;
   least.evidence = Evidence::searched;
-  if (is_of_error(required) || a.number == Number::mixed || !least.value || !q.proves) return least;
+  if (is_of_error(required) || a.number == Number::mixed || !least.value || !q.proves ||
+      q.subject.narrows)
+    return least;
   // Below what looking finds broken nothing is proved.
   Subject above = q.subject;
   above.inputs[*above.decides].domain.low = *least.value;

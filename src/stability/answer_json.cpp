@@ -65,7 +65,9 @@ struct Description<stability::Answer> {
         field("open_share", &A::open_share,
               "part of the domain that the proof leaves open, in logarithms"),
         field("safe_from", safe_from,
-              "of alpha, or what else decides: the least value from which the requirement holds"),
+              "of alpha, or what else decides: the least value from which the requirement holds; "
+              "of a "
+              "smoothness, a gloss or a shininess the largest up to which it holds"),
         field("safe_from_evidence", safe_from_evidence,
               "exhaustive, proved; searched: nothing above breaks it that a search finds"),
         field("least", &A::least, "where --least asks: the same of every requirement"),

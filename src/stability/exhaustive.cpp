@@ -316,9 +316,11 @@ Looked exhaustive(const Subject& s,
 
   if (s.decides && walk->row == *s.decides) {
     const auto from = [&](auto&& is_broken) -> std::optional<double> {
-      std::size_t safe = rows;
-      while (safe > 0 && !is_broken(by_row[safe - 1])) --safe;
-      return safe < rows ? std::optional(walk->values[walk->row][safe]) : std::nullopt;
+      // From the wide end.
+      const auto at = [&](std::size_t k) { return s.narrows ? k : rows - 1 - k; };
+      std::size_t safe = 0;
+      while (safe < rows && !is_broken(by_row[at(safe)])) ++safe;
+      return safe > 0 ? std::optional(walk->values[walk->row][at(safe - 1)]) : std::nullopt;
     };
     const auto has_none = [](const Compared& c) {
       return c.no_value + c.overflow + c.undefined > 0;

@@ -193,8 +193,16 @@ class Domain {
     if (next > places_[k].last) return {};
     return at_place(number_, next, k < s_.parameters);
   }
+  std::optional<double> below(std::size_t k, double x) const {
+    const auto next = place_of(number_, x, k < s_.parameters) - 1;
+    if (next < places_[k].first) return {};
+    return at_place(number_, next, k < s_.parameters);
+  }
   double lowest(std::size_t k) const {
     return at_place(number_, places_[k].first, k < s_.parameters);
+  }
+  double highest(std::size_t k) const {
+    return at_place(number_, places_[k].last, k < s_.parameters);
   }
 
  private:
@@ -261,7 +269,8 @@ struct Met {
   Looked looked;  ///< its counts
   std::uint64_t evaluations = 0;
   std::array<std::optional<double>, kinds.size()>
-      broken{};  ///< largest deciding parameter where each is
+      broken{};  ///< largest deciding parameter where each is; of one that narrows the least,
+                 ///< negated
 
   void look(const Subject& s, const Inputs& in, const Judged& j) {
     ++evaluations;
@@ -272,7 +281,7 @@ struct Met {
     }
     if (!s.decides) return;
     for (std::size_t k = 0; k < kinds.size(); ++k)
-      if (j.breaks(kinds[k])) raise(broken[k], in[*s.decides]);
+      if (j.breaks(kinds[k])) raise(broken[k], s.narrows ? -in[*s.decides] : in[*s.decides]);
   }
   void add(const Met& other) {
     for (const auto& e : events) {
@@ -310,7 +319,9 @@ double reached(Aim aim, const Subject& s, const Looking& l) {
       break;
   }
   const auto kind = kinds[static_cast<std::size_t>(aim) - static_cast<std::size_t>(Aim::parameter)];
-  return s.decides && l.judged.breaks(kind) ? l.in[*s.decides] : 0;
+  if (!s.decides || !l.judged.breaks(kind)) return 0;
+  const double x = l.in[*s.decides];
+  return s.narrows ? s.inputs[*s.decides].domain.high - x + 1 : x;
 }
 
 /// Findings from one seed.
@@ -430,9 +441,13 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   looked.evaluations = one.met.evaluations;
   for (const auto& e : Met::events) looked.*e.count = one.met.looked.*e.count;
   const std::array from{&looked.safe_from, &looked.finite_from, &looked.nonnegative_from};
-  for (std::size_t k = 0; s.decides && k < kinds.size(); ++k)
-    *from[k] = one.met.broken[k] ? domain.above(*s.decides, *one.met.broken[k])
-                                 : domain.lowest(*s.decides);
+  for (std::size_t k = 0; s.decides && k < kinds.size(); ++k) {
+    const auto& broken = one.met.broken[k];
+    if (s.narrows)
+      *from[k] = broken ? domain.below(*s.decides, -*broken) : domain.highest(*s.decides);
+    else
+      *from[k] = broken ? domain.above(*s.decides, *broken) : domain.lowest(*s.decides);
+  }
   return looked;
 }
 

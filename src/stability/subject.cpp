@@ -96,10 +96,18 @@ Subject subject(std::string id, Given given, std::vector<Input> inputs) {
   s.parameters = s.inputs.size();
   auto width =
       std::ranges::find_if(s.inputs, [](const auto& i) { return i.name.starts_with("alpha"); });
-  if (width == s.inputs.end())  // a file's own, whatever its case
-    width = std::ranges::find_if(s.inputs, [](const auto& i) {
-      return same_letters(std::string_view(i.name).substr(0, 5), "rough");
+  const auto named = [&](std::initializer_list<std::string_view> parts) {
+    return std::ranges::find_if(s.inputs, [&](const Input& i) {  // a file's own, whatever its case
+      std::string name = i.name;
+      std::ranges::transform(name, name.begin(), lower_case);
+      return std::ranges::any_of(parts, [&](auto p) { return name.find(p) != name.npos; });
     });
+  };
+  if (width == s.inputs.end()) width = named({"rough", "alpha"});
+  if (width == s.inputs.end()) {
+    width = named({"smooth", "gloss", "shin"});
+    s.narrows = width != s.inputs.end();
+  }
   if (s.parameters > 0)
     s.decides = width == s.inputs.end() ? 0 : static_cast<std::size_t>(width - s.inputs.begin());
   for (auto& i : angles_given(given)) s.inputs.push_back(std::move(i));

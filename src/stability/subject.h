@@ -36,6 +36,8 @@ struct Subject {
   std::size_t parameters;              ///< of the inputs, those that are parameters
   std::optional<std::size_t> decides;  ///< the parameter that people clamp: alpha or a roughness,
                                        ///< else the first; none where there is none
+  bool narrows = false;  ///< more of what decides is a narrower lobe, as of a smoothness: what is
+                         ///< required holds up to a value, not from it
 
   std::string_view form() const { return name_of(given); }
 };

@@ -283,6 +283,34 @@ TEST(OwnModel, IsLookedAtInHalfAndInFiftyDigits) {
   EXPECT_NEAR(*a.safe_from->value, 0.0156, 0.002);
 }
 
+TEST(OwnModel, ASmoothnessIsSafeInHalfUpToAValue) {
+  SKIP_WITHOUT_SHADERS;
+  const auto safe_up_to = [](const std::string& tint, stability::Evidence evidence) {
+    const Folder folder;
+    stability::Question q;
+    q.subject =
+        stability::subjects_of(
+            folder.write("smooth.glsl",
+                         "// tint 0 1 0.5\n// smoothness 0 0.95 0.5\nfloat D(float NoH" +
+                             (tint.empty() ? "" : ", float " + tint) +
+                             ", float smoothness) {\n  float r = 1.0 - smoothness, a2 = r * r * "
+                             "r * r, d = NoH * NoH * (a2 - 1.0) + 1.0;\n  return " +
+                             (tint.empty() ? "" : tint + " * ") +
+                             "a2 / (3.14159265 * d * d);\n}\n") +
+            ":D")
+            .back();
+    EXPECT_TRUE(q.subject.narrows);
+    const auto a = stability::answer(q);
+    EXPECT_FALSE(a.holds);
+    EXPECT_EQ(a.safe_from->evidence, evidence);
+    return a.safe_from->value.value_or(-1);
+  };
+  // α² − 1 rounds to −1 from there on.
+  const double exhaustive = safe_up_to("", stability::Evidence::exhaustive);
+  EXPECT_NEAR(exhaustive, 0.85, 0.03);
+  EXPECT_NEAR(safe_up_to("tint", stability::Evidence::searched), exhaustive, 0.02);
+}
+
 TEST(OwnModel, OperationsAreTheSameWheneverTheyAreCounted) {
   SKIP_WITHOUT_SHADERS;
   const auto m = compose(file() + ":brdf", 3);
