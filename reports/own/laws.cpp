@@ -27,7 +27,7 @@ std::vector<double> widths_of(const Parameter& p) {
 using Settings = std::vector<std::vector<double>>;
 
 /// Values of parameters that laws are looked at with: five widths with the ends and the default of some others, colours at their
-/// upper ends; and each parameter at its ends with the others at their defaults.
+/// upper ends; each parameter at its ends with the others at their defaults; and some places over all bounds together.
 Settings looked_at(std::span<const Parameter> parameters) {
   const auto width = width_of(parameters);
   const auto is_width = [&](const Parameter& p) { return width && &p == &parameters[*width]; };
@@ -57,6 +57,18 @@ Settings looked_at(std::span<const Parameter> parameters) {
         one[k] = v;
         all.push_back(one);
       }
+  }
+  constexpr std::size_t spread = 24;
+  constexpr double golden = 0.618033988749895;
+  for (std::size_t j = 1; j <= spread && !parameters.empty(); ++j) {
+    std::vector<double> at;
+    for (const auto& p : parameters) {
+      const double part = std::fmod(static_cast<double>(j * (at.size() + 1)) * golden, 1);
+      at.push_back(part < 0.3   ? low_of(p)
+                   : part < 0.6 ? high_of(p)
+                                : low_of(p) + (part - 0.6) / 0.4 * (high_of(p) - low_of(p)));
+    }
+    all.push_back(std::move(at));
   }
   return all;
 }

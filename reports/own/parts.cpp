@@ -83,7 +83,7 @@ class Parts {
     const bool is_whole = std::abs(a_.highlight->value - 1) < rounded;
     if (model_ && (model_->bite || model_->factor != 1)) return is_whole;  // named by its form
     for (const double factor : {pi, 4.0, 4 * pi, 1 / pi})
-      if (std::abs(a_.highlight->value / factor - 1) < rounded)
+      if (std::abs(a_.highlight->value / factor - 1) < rounded && (factor > 1 || guessed_pi_))
         a_.slips.push_back(highlight_text(factor, guessed_pi_));
     if (const auto bite = bite_of(w, power_, [&](double v) { return at(v, others_); })) {
       const auto text = fmt::format(
@@ -105,7 +105,7 @@ class Parts {
         auto p = with_white(Others::usual);
         p[*width_] = narrowest_, p[k] = end;
         const double v = albedo_.along_normal(p) / brightest();
-        if (v > 1 - loss && v < 1 + gain) continue;
+        if (!std::isfinite(v) || (v > 1 - loss && v < 1 + gain)) continue;
         a_.slips.push_back(fmt::format(
             "the norm of its D is wrong where {} is {:.4g}: its highlight returns {:.3g} of the "
             "light along the normal, expected 1, as with 1/(π αx αy)",
