@@ -125,7 +125,7 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
       own.role() == Role::ndf && highest < wanted * (1 - same_within) &&
       narrowest >= highest * (1 - 1e-9))
     n.cap = highest;
-  if (power == of_exponent) {
+  if (power == of_exponent || (own.role() == Role::ndf && own.anisotropic)) {
     n.norms = Range{1e300, 0};
     for (std::size_t k = 0; k < f.size(); ++k) {
       const double norm = *std::ranges::max_element(f[k]) / *std::ranges::max_element(g[k]);

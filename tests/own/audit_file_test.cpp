@@ -287,6 +287,13 @@ TEST(AuditFile, FormsOfTwoWidthsAreKnownInEitherOrder) {
       "at) {\n  float x = ToH / at, y = BoH / ab, s = x * x + y * y + NoH * NoH;\n  return 1.0 / "
       "(3.14159265358979 * at * ab * s * s);\n}\n");
   EXPECT_EQ(nearest(d), "ndf.ggx_aniso");
+  EXPECT_EQ(slips(d), "");
+  const auto of_one = audited(
+      "// at 0.05 1 0.3\n// ab 0.05 1 0.3\nfloat D(float NoH, float ToH, float BoH, float at, "
+      "float "
+      "ab) {\n  float x = ToH / at, y = BoH / ab, s = x * x + y * y + NoH * NoH;\n  return 1.0 / "
+      "(3.14159265358979 * at * at * s * s);\n}\n");
+  EXPECT_HAS(slips(of_one), "the form is right and its norm is not") << text_of(of_one);
   const auto v = [](const std::string& one, const std::string& other) {
     return audited(
         "// at 0.05 1 0.3\n// ab 0.05 1 0.3\nfloat V_Smith(float at, float ab, float ToV, float "
