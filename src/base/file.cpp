@@ -182,13 +182,6 @@ void remove_unfinished_files_on_signals() {
 
 namespace {
 
-/// Process that a temporary file belongs to, told apart from any other that ever had its number.
-struct Maker {
-  std::string
-      home;  ///< boot and namespace of process numbers; "" where the system does not tell them
-  std::string start;  ///< of the process, in the system's ticks
-};
-
 /// Text of one of the system's small files; "" if it cannot be read.
 std::string system_text(const std::string& path) {
   std::string text(4096, '\0');
@@ -220,27 +213,28 @@ bool has_ended(const std::string& process) {
   return !told.empty() && told[0] == "Z";
 }
 
-Maker this_process() {
-  std::string boot = system_text("/proc/sys/kernel/random/boot_id");
-  std::erase_if(boot, [](char c) { return !std::isxdigit(static_cast<unsigned char>(c)); });
-  struct stat numbers {};
-  const auto start = start_of("self");
-  if (boot.empty() || start.empty() || ::stat("/proc/self/ns/pid", &numbers) != 0) return {};
-  return {fmt::format("{}-{}", boot, numbers.st_ino), start};
-}
-
-const Maker& maker() {
-  static const Maker me = this_process();
-  return me;
+/// Boot and namespace of process numbers, within which a number and the start of its process name it; "" where the system does
+/// not tell them.
+const std::string& home() {
+  static const std::string mine = [] {
+    std::string boot = system_text("/proc/sys/kernel/random/boot_id");
+    std::erase_if(boot, [](char c) { return !std::isxdigit(static_cast<unsigned char>(c)); });
+    struct stat numbers {};
+    if (boot.empty() || start_of("self").empty() || ::stat("/proc/self/ns/pid", &numbers) != 0)
+      return std::string();
+    return fmt::format("{}-{}", boot, numbers.st_ino);
+  }();
+  return mine;
 }
 
 constexpr std::string_view kPrefix = ".gonio.", kSuffix = ".tmp";
 
 /// Name of a temporary file: of its maker, not of what it is to become, whose own may be as long as names can be.
 std::string temporary_name(unsigned counter) {
-  const Maker& me = maker();
-  return fmt::format("{}{}.{}.{}.{}{}", kPrefix, me.home.empty() ? "-" : me.home, ::getpid(),
-                     me.start.empty() ? "-" : me.start, counter, kSuffix);
+  // Asked each time: a child of fork() is another process.
+  const std::string start = home().empty() ? "" : start_of("self");
+  return fmt::format("{}{}.{}.{}.{}{}", kPrefix, home().empty() ? "-" : home(), ::getpid(),
+                     start.empty() ? "-" : start, counter, kSuffix);
 }
 
 /// True for a temporary file of a process of this boot that has ended.  Those of other machines that share
@@ -249,7 +243,7 @@ bool is_left_over(std::string_view name) {
   if (!name.starts_with(kPrefix) || !name.ends_with(kSuffix)) return false;
   const auto parts =
       split(name.substr(kPrefix.size(), name.size() - kPrefix.size() - kSuffix.size()), '.');
-  if (parts.size() != 4 || maker().home.empty() || parts[0] != maker().home) return false;
+  if (parts.size() != 4 || home().empty() || parts[0] != home()) return false;
   const auto process = number_from<pid_t>(parts[1]);
   if (!process || *process <= 0) return false;
   if ((::kill(*process, 0) != 0 && errno == ESRCH) || has_ended(parts[1])) return true;
