@@ -87,6 +87,7 @@ std::pair<std::string, std::string> hardly_told_apart(const FitDocument& d) {
 class Steps {
  public:
   void add(std::string_view sentence) { all_.emplace_back(sentence); }
+  bool empty() const { return all_.empty(); }
   void add_model(const std::string& spec, const std::string& why) {
     if (spec.empty() || std::ranges::find(models_, spec) != models_.end()) return;
     models_.push_back(spec);
@@ -142,6 +143,7 @@ std::vector<std::string> others_of(const ModelSpec& spec) {
 }
 
 /// Tries them, and names those that take up most of a misfit, and so that it shows.  False where none does.
+/// \param otherwise  gets what to say of them then, where nothing else helps
 /// \param less      the model without a lobe of which nothing is known; if that does as well as the best, no other is named
 /// \param needless  whether the fit is that one's
 bool add_models(Steps& steps,
@@ -149,7 +151,8 @@ bool add_models(Steps& steps,
                 const FitDocument& d,
                 const TryModel& attempt,
                 const std::string& less,
-                bool needless) {
+                bool needless,
+                std::string& otherwise) {
   constexpr double worth = 1 / 3.0;   // of the misfit's square
   constexpr double as_well = 1.02;    // log RMS, of the least
   constexpr double shows = 0.95;      // log RMS, of what it is
@@ -168,7 +171,21 @@ bool add_models(Steps& steps,
   for (std::size_t k = 0; k < left.size(); ++k)
     if (left[k] < shows * here && here * here - left[k] * left[k] > worth * misfit)
       found.emplace_back(left[k], others[k]);
-  if (found.empty()) return false;
+  if (found.empty()) {
+    const auto less_left = [](double a, double b) {
+      return a < b || (std::isnan(b) && !std::isnan(a));
+    };
+    const auto nearest = std::ranges::min_element(left, less_left);
+    if (nearest == left.end() || std::isnan(*nearest)) return false;
+    otherwise =
+        *nearest < shows * here
+            ? fmt::format("--model {} misses, too, but less: by a factor of {} instead of {}",
+                          others[static_cast<std::size_t>(nearest - left.begin())],
+                          typical_factor(*nearest), typical_factor(here))
+            : fmt::format("none of {} other models is clearly nearer; --models all compares more",
+                          left.size());
+    return false;
+  }
   std::ranges::stable_sort(found, {}, [](const auto& f) { return f.first; });
   std::erase_if(found, [most = std::max(near_best * found[0].first, 1e-6)](const auto& f) {
     return f.first > most;
@@ -204,8 +221,9 @@ std::vector<std::string> next_steps(const FitOptions& o,
     steps.add("fit without --copies keep: angles that only repeat another are no measurements");
   const auto unknown = unknown_lobe(d);
   const std::string less = unknown ? without_lobe(spec, *unknown) : "";
+  std::string otherwise;
   const bool mended =
-      d.misfit.told && !f.no_f && add_models(steps, spec, d, attempt, less, f.needless);
+      d.misfit.told && !f.no_f && add_models(steps, spec, d, attempt, less, f.needless, otherwise);
   if (f.retro && !mended) {
     constexpr double of_it = 3,
                      widest = 45;  // half widths, beyond which a lobe has next to nothing
@@ -258,6 +276,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
                           f.offset ? "offset lowers" : "noise floor lifts"));
   if (f.few_angles)
     steps.add("8 incident angles or more would show errors common to all values of one angle");
+  if (steps.empty() && !otherwise.empty()) steps.add(otherwise);
   return std::move(steps).first();
 }
 

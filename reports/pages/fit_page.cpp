@@ -273,7 +273,7 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
       "Parameters",
       fmt::format(
           "Values are written to the second digit of their standard error. Intervals: {}{}.",
-          d.intervals, d.clusters > 0 ? fmt::format(", {} clusters", count_text(d.clusters)) : ""),
+          d.intervals, d.clusters > 0 ? fmt::format(" ({} clusters)", count_text(d.clusters)) : ""),
       {std::move(t)}};
   out.parts.emplace_back(Prose{
       fmt::format(
