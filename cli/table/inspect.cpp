@@ -75,6 +75,7 @@ void print(const Table& t, const Health& h) {
                                a.phi_i_deg == 0 ? "" : fmt::format(", phi_i {:.3g}°", a.phi_i_deg),
                                100 * a.coverage));
   }
+  for (const auto& why : h.albedo_left_out) line("albedo", "none at " + why);
   line("reciprocity", h.reciprocity_error
                           ? fmt::format("median error {:.1f} %", 100 * *h.reciprocity_error)
                           : h.reciprocity_note);

@@ -16,7 +16,7 @@ constexpr std::size_t most_of_a_list = 50'000;
 std::vector<AlbedoSample> albedo_of(TableFacts& facts) {
   const Table& t = facts.table();
   if (t.list() && (t.between || t.size() > most_of_a_list)) return {};
-  return facts.albedo();
+  return facts.albedo().known;
 }
 
 /// Greatest values of the model over those of the data, by channel, of the values that are compared.

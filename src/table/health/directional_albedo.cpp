@@ -7,10 +7,12 @@
 #include <map>
 #include <numbers>
 #include <optional>
+#include <set>
 #include <span>
 #include <tuple>
 #include <utility>
 
+#include "base/few.h"
 #include "base/random.h"
 #include "integrate/rule/quadrature.h"
 #include "table/format/rgl/function.h"
@@ -18,6 +20,7 @@
 #include "table/grid_cell.h"
 #include "table/health/key_counts.h"
 
+#include <fmt/format.h>
 #include <tbb/parallel_for.h>
 
 namespace gonio {
@@ -182,6 +185,8 @@ class AroundOneLight {
   }
 
   bool reaches(const Direction& wo) const { return near(wo, 0).first != nullptr; }
+  /// Half the angle between the mirror direction and the sample nearest to it.
+  double from_mirror() const { return innermost_->theta_h; }
 
   /// f where both logarithms and values are interpolated over θ_h, from the nearest sample to the nearest one on the
   /// other side of the place: a highlight lies along circles of θ_h.  Nearer to the mirror direction than any sample it
@@ -268,7 +273,30 @@ class AroundOneLight {
   const Sample *innermost_ = nullptr, *next_ = nullptr;  ///< of the least θ_h, and farther out
 };
 
-std::vector<AlbedoSample> samples_of_list(const Table& t) {
+/// How far from the mirror direction a light's nearest sample may be: within a highlight that the table resolves, or
+/// anywhere if samples in the mirror direction of other lights show none.
+double farthest_from_mirror(const Table& t, const PeakSearch& search) {
+  constexpr double tiny = 0.25 * degree;
+  if (search.peak && search.peak->resolved) return search.peak->half_width_deg * degree;
+  if (search.peak || search.profiles == 0) return tiny;
+  const double lowest = std::cos(45 * degree), highest = std::cos(5 * degree),
+               sine = std::sin(tiny);
+  const SampleAngles at(t);
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const auto a = at(i);
+    if (a.voh > lowest && a.voh < highest && a.sin2_theta_h < sine * sine) return HUGE_VAL;
+  }
+  return tiny;
+}
+
+/// A few incident angles in words.
+std::string angles_in_words(const std::set<double>& deg) {
+  std::vector<std::string> all;
+  for (const double x : deg) all.push_back(fmt::format("{:.3g}°", x));
+  return few_of(all);
+}
+
+TableAlbedo albedo_of_list(const Table& t, const PeakSearch& search) {
   const auto fewest = static_cast<std::size_t>(
       1 / (1 - std::cos(reach_deg * degree)));  // caps of that size in a hemisphere
   const auto nodes = cosine_hemisphere(24, 48);
@@ -286,7 +314,13 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
   for (auto& [incident, samples] : groups)
     if (samples.size() >= fewest) lights.emplace_back(incident, std::move(samples));
   const bool noisy = noise_floor(t) > 0;
-  std::vector<std::optional<AlbedoSample>> found(lights.size());
+  const double farthest = farthest_from_mirror(t, search);
+  struct Light {
+    std::optional<AlbedoSample> albedo;  ///< none of too few samples
+    double from_mirror = 0;
+    bool sure = false;
+  };
+  std::vector<Light> found(lights.size());
   tbb::parallel_for(std::size_t{0}, lights.size(), [&](std::size_t k) {
     const auto& [incident, samples] = lights[k];
     const bool half = one_azimuth && one_half_turn(l, samples);
@@ -316,11 +350,34 @@ std::vector<AlbedoSample> samples_of_list(const Table& t) {
     double most = 0;
     for (const double v : a.albedo) most = std::max(most, v);
     constexpr double known = 1 / 3.0;  // a peak between samples farther apart cannot be integrated
-    if (!(a.error > known * most)) found[k] = std::move(a);
+    found[k] = {std::move(a), f.from_mirror(), !(a.error > known * most)};
   });
-  std::vector<AlbedoSample> all;
-  for (auto& a : found)
-    if (a) all.push_back(std::move(*a));
+  TableAlbedo all;
+  std::set<double> few(l.theta_i_deg.begin(), l.theta_i_deg.end()), unsure, hidden;
+  double widest = 0, least = HUGE_VAL, most = 0;
+  for (auto& [a, from_mirror, sure] : found) {
+    if (!a) continue;
+    few.erase(a->theta_i_deg);
+    if (!sure) {
+      unsure.insert(a->theta_i_deg);
+    } else if (from_mirror > farthest) {
+      widest = std::max(widest, from_mirror);
+      hidden.insert(a->theta_i_deg);
+      for (const double v : a->albedo) least = std::fmin(least, v), most = std::fmax(most, v);
+      all.at_least.push_back(std::move(*a));
+    } else {
+      all.known.push_back(std::move(*a));
+    }
+  }
+  const auto leave_out = [&](const std::set<double>& deg, const std::string& why) {
+    if (!deg.empty()) all.left_out.push_back(angles_in_words(deg) + ": " + why);
+  };
+  leave_out(few, "the samples do not cover the hemisphere");
+  leave_out(unsure, "the samples are too far apart for the highlight");
+  leave_out(hidden,
+            fmt::format("a highlight narrower than {:.2g}° would not show; without one {:.3g}{}",
+                        widest / degree, least,
+                        most - least > 0.005 * most ? fmt::format(" to {:.3g}", most) : ""));
   return all;
 }
 
@@ -414,12 +471,17 @@ AlbedoSample directional_albedo(const Table& t, double theta_i_deg) {
   });
 }
 
+TableAlbedo albedo_of_table(const Table& t, double step_deg, const PeakSearch& search) {
+  if (t.list() && !t.between) return albedo_of_list(t, search);
+  const bool slice = t.grid() && std::ranges::any_of(t.grid()->axes, [](const Axis& a) {
+                       return a.spacing == Axis::Spacing::constant;
+                     });
+  if (slice && !t.between) return {{}, {}, {"an image slice holds no hemisphere"}};
+  return {of_function(t, step_deg), {}, {}};
+}
+
 std::vector<AlbedoSample> albedo_curve(const Table& t, double step_deg) {
-  if (t.between) return of_function(t, step_deg);
-  if (t.list()) return samples_of_list(t);
-  const bool slice = std::ranges::any_of(
-      t.grid()->axes, [](const Axis& a) { return a.spacing == Axis::Spacing::constant; });
-  return slice ? std::vector<AlbedoSample>{} : of_function(t, step_deg);
+  return albedo_of_table(t, step_deg, find_peak(t, t.bins())).known;
 }
 
 std::vector<AlbedoSample> directional_albedo(const Table& t) {

@@ -32,8 +32,9 @@ class TableFacts {
   const Noise& noise() {
     return once(noise_, [&] { return estimate_noise(table_, noise_samples()); });
   }
-  const std::vector<AlbedoSample>& albedo() {
-    return once(albedo_, [&] { return directional_albedo(table_); });
+  const TableAlbedo& albedo() {
+    constexpr double step_deg = 15;
+    return once(albedo_, [&] { return albedo_of_table(table_, step_deg, peak()); });
   }
   const Reciprocity& reciprocity() {
     return once(reciprocity_, [&] { return gonio::reciprocity(table_); });
@@ -63,7 +64,7 @@ class TableFacts {
   std::optional<std::optional<Peak>> retro_;
   std::optional<NoiseSamples> noise_samples_;
   std::optional<Noise> noise_;
-  std::optional<std::vector<AlbedoSample>> albedo_;
+  std::optional<TableAlbedo> albedo_;
   std::optional<Reciprocity> reciprocity_;
   std::optional<std::optional<std::size_t>> negative_channel_;
   std::optional<double> negative_offset_, noise_floor_;

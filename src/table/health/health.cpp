@@ -220,7 +220,8 @@ Health inspect(const Table& t) {
   h.noise_floor = facts.noise_floor();
   h.copied_rows = copied_rows(t, 0);
   h.copied_columns = copied_rows(t, 1);
-  h.albedo = facts.albedo();
+  h.albedo = facts.albedo().known;
+  h.albedo_left_out = facts.albedo().left_out;
   h.reciprocity_error = facts.reciprocity().error;
   h.reciprocity_note = facts.reciprocity().note;
   h.noise = facts.noise();

@@ -66,6 +66,7 @@ struct Health {
   std::size_t copied_rows = 0;     ///< incident angles that only repeat another, see copied_rows()
   std::size_t copied_columns = 0;  ///< outgoing angles likewise
   std::vector<AlbedoSample> albedo;
+  std::vector<std::string> albedo_left_out;  ///< angles of incidence without an albedo, and why
   /// median |f(wi,wo) − f(wo,wi)| / mean (table/health/reciprocity.h); absent where the layout cannot tell
   std::optional<double> reciprocity_error;
   std::string reciprocity_note;

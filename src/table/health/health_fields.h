@@ -163,6 +163,8 @@ struct Description<TableHealth> {
         field("largest", "1/sr", health(&Health::largest), "largest value"),
         field("smallest_positive", "1/sr", health(&Health::smallest_positive), ""),
         field("albedo", health(&Health::albedo), "at some angles of incidence"),
+        field("albedo_left_out", health(&Health::albedo_left_out),
+              "angles of incidence that have none, and why"),
         field("reciprocity_error", health(&Health::reciprocity_error),
               "median |f(wi,wo) − f(wo,wi)| over their mean; null where the layout cannot tell"),
         field("reciprocity_note", health(&Health::reciprocity_note), ""),

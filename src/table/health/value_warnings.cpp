@@ -103,7 +103,7 @@ void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& al
   double most = 0, at = 0, whole = 0, shown = 0;
   std::size_t brightest = 0;
   std::vector<double> of_channel(t.channels.size());
-  for (const auto& a : facts.albedo())
+  const auto look_at = [&](const AlbedoSample& a) {
     for (std::size_t c = 0; c < a.albedo.size(); ++c) {
       const double v = a.albedo[c];
       if (std::isnan(v)) continue;
@@ -112,6 +112,9 @@ void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& al
       const double sure = (v - a.error) * a.coverage;
       if (sure > most * (1 + rounding)) most = sure, at = a.theta_i_deg, shown = v, brightest = c;
     }
+  };
+  std::ranges::for_each(facts.albedo().known, look_at);
+  std::ranges::for_each(facts.albedo().at_least, look_at);
   double others = 0;
   for (std::size_t c = 0; c < of_channel.size(); ++c)
     if (c != brightest) others = std::max(others, of_channel[c]);

@@ -85,6 +85,65 @@ TEST(AlbedoOfATable, IsSaidOfAListOnlyAsFarAsItsRingsShowTheHighlight) {
   EXPECT_EQ(directional_albedo(rings(0.3, 5)).size(), 2U);
 }
 
+/// Directions every 10° whose azimuths pass the mirror direction by.
+Table beside_the_mirror(const BoundModel& model, double first_phi = 5) {
+  DirectionList l;
+  for (const double in : {10.0, 30.0, 50.0, 70.0})
+    for (double out = 0; out < 90; out += 10)
+      for (double phi = first_phi; phi < 360; phi += 10) {
+        l.theta_i_deg.push_back(in);
+        l.phi_i_deg.push_back(0);
+        l.theta_o_deg.push_back(out);
+        l.phi_o_deg.push_back(phi);
+      }
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  t.where = std::move(l);
+  test::put_values(t, model);
+  return t;
+}
+TableAlbedo albedo_with_reasons(const Table& t) {
+  return albedo_of_table(t, 15, find_peak(t, t.bins()));
+}
+
+TEST(AlbedoOfATable, IsNoneWhereAHighlightMayHideBetweenTheSamples) {
+  const char* const beckmann = "lambert+beckmann/smith_beckmann.correlated/schlick";
+  const auto shiny = [&](double alpha) {
+    return bind_model(beckmann, {{"alpha", {alpha}}, {"f0", {0.3}}, {"kd", {0.1}}}, 1);
+  };
+  const auto hidden = albedo_with_reasons(beside_the_mirror(shiny(0.01)));
+  EXPECT_TRUE(hidden.known.empty());
+  EXPECT_FALSE(hidden.at_least.empty());
+  ASSERT_FALSE(hidden.left_out.empty());
+  EXPECT_NE(hidden.left_out.back().find("a highlight narrower than"), std::string::npos);
+  EXPECT_FALSE(albedo_with_reasons(beside_the_mirror(shiny(0.3))).known.empty())
+      << "a highlight that is resolved hides none";
+  const auto matte = bind_model("lambert", {{"kd", {0.5}}}, 1);
+  EXPECT_TRUE(albedo_with_reasons(beside_the_mirror(matte)).known.empty());
+  EXPECT_EQ(albedo_with_reasons(beside_the_mirror(matte, 0)).known.size(), 4u)
+      << "samples in the mirror direction show that there is none";
+}
+
+TEST(AlbedoOfATable, SaysOfEachIncidentAngleWithoutOneWhy) {
+  DirectionList in_plane;
+  for (double out = 0; out < 90; out += 5) {
+    in_plane.theta_i_deg.push_back(30);
+    in_plane.phi_i_deg.push_back(0);
+    in_plane.theta_o_deg.push_back(out);
+    in_plane.phi_o_deg.push_back(180);
+  }
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  t.where = std::move(in_plane);
+  test::put_values(t, bind_model("lambert", {{"kd", {0.5}}}, 1));
+  const auto found = albedo_with_reasons(t);
+  EXPECT_TRUE(found.known.empty());
+  ASSERT_EQ(found.left_out.size(), 1u);
+  EXPECT_EQ(found.left_out[0], "30°: the samples do not cover the hemisphere");
+}
+
 TEST(AlbedoOfATable, OfAListTakesNoiseBelowZeroAndNoMarks) {
   const Table clean = rings(0.3, 5);
   const auto whole = directional_albedo(clean);
