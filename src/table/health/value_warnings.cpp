@@ -27,6 +27,12 @@ namespace {
 using std::numbers::pi;
 constexpr double too_much = 1.05;  ///< light that goes out, over what comes in
 
+std::string divided_by(const Table& t, const CosinePowers& c) {
+  return reading_command(t, [&](ColumnMap& map) {
+    map.cosines = {map.cosines.incident + c.incident, map.cosines.outgoing + c.outgoing};
+  });
+}
+
 std::string scaled_by(const Table& t, const char* what, double scale) {
   return fmt::format(": {}? ({})", what,
                      reading_command(t, [&](ColumnMap& map) { map.scale *= scale; }));
@@ -196,7 +202,7 @@ std::optional<Trend> trend_of(const Table& t) {
       for (std::size_t q = 0; q < 3; ++q) square[p][q] += x[p] * x[q];
     }
   }
-  constexpr double few = 30, changes = 0.03, tied = 0.7;  // squared correlation
+  constexpr double few = 12, changes = 0.03, tied = 0.7;  // squared correlation
   if (n < few) return {};
   const auto v = [&](std::size_t p, std::size_t q) {
     return square[p][q] / n - sum[p] / n * (sum[q] / n);
@@ -218,6 +224,58 @@ std::optional<Trend> trend_of(const Table& t) {
   return trend;
 }
 
+/// True where partners are those of an isotropic surface, since the light always comes from one azimuth.
+bool takes_as_isotropic(const Table& t) {
+  if (t.grid()) return t.grid()->kind == Grid::Kind::in_out;
+  const auto& phi = t.list()->phi_i_deg;
+  return std::ranges::all_of(phi, [&](double p) { return p == phi[0]; });
+}
+
+/// Samples of a list whose light comes from one azimuth against f at the exchanged zenith angles, where four samples of the same
+/// azimuth lie around these: away from the highlight logarithms are interpolated.
+void for_each_between(const Table& t, const ReciprocalVisitor& visit) {
+  const DirectionList& l = *t.list();
+  constexpr std::size_t large = 100'000;
+  constexpr double farthest_deg = 12, off_specular = 0.35;  // between samples; sin θ_h
+  if (t.size() > large || !takes_as_isotropic(t)) return;
+  const SampleAngles at(t);
+  using Row = std::map<double, std::size_t>;  // by θ_o
+  std::map<long, std::map<double, Row>> rows;
+  const auto azimuth_of = [&](std::size_t i) {
+    return std::lround(1000 * std::abs(std::remainder(l.phi_o_deg[i] - l.phi_i_deg[i], 360)));
+  };
+  for (std::size_t i = 0; i < t.size(); ++i)
+    rows[azimuth_of(i)][l.theta_i_deg[i]][l.theta_o_deg[i]] = i;
+  const auto around = [&](const auto& of, double deg) {
+    const auto above = of.lower_bound(deg);
+    if (above == of.end() || (above == of.begin() && above->first != deg))
+      return std::pair{of.end(), of.end()};
+    const auto below = above->first == deg ? above : std::prev(above);
+    return above->first - below->first > farthest_deg ? std::pair{of.end(), of.end()}
+                                                      : std::pair{below, above};
+  };
+  const auto between = [](double x, double from, double to, double there, double here) {
+    return to > from ? std::lerp(there, here, (x - from) / (to - from)) : there;
+  };
+  const auto log_of = [&](std::size_t i) { return std::log(value_of_all(t, at(i), i)); };
+  for (std::size_t i = 0; i < t.size(); ++i) {
+    const double a = value_of_all(t, at(i), i), wanted = l.theta_i_deg[i];
+    if (!(a > 0) || at(i).sin2_theta_h < off_specular * off_specular) continue;
+    const auto& plane = rows[azimuth_of(i)];
+    const auto [low, high] = around(plane, l.theta_o_deg[i]);
+    if (low == plane.end()) continue;
+    const auto along = [&](const Row& row) {
+      const auto [below, above] = around(row, wanted);
+      return below == row.end() ? std::nan("")
+                                : between(wanted, below->first, above->first, log_of(below->second),
+                                          log_of(above->second));
+    };
+    const double b = std::exp(between(l.theta_o_deg[i], low->first, high->first, along(low->second),
+                                      along(high->second)));
+    if (std::isfinite(b)) visit(i, 0, a, b);
+  }
+}
+
 /// A cosine breaks reciprocity, and what is reciprocal without it had it; of the two that do so the one that values follow
 /// more nearly away from the highlight.  Both cosines keep it, and a table may hold no reciprocal pairs: only that values
 /// fall by them tells.
@@ -225,29 +283,25 @@ std::optional<Trend> trend_of(const Table& t) {
 const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) {
   const Table& t = facts.table();
   const auto sigma = [&] { return facts.noise().sigma.value_or(0); };
+  constexpr std::size_t few = 8;
   std::vector<double> raw;
   std::array<std::vector<double>, 4>
       without;  // of f cos θ_o or f/cos θ_i; of the others; of their squares
-  if (facts.reciprocity().error) {
-    const SampleAngles at(t);
-    for_each_reciprocal(t, [&](std::size_t i, std::size_t, double a, double b) {
-      const auto x = at(i);
-      const double low = std::min(x.nol, x.nov), high = std::max(x.nol, x.nov);
-      // Elsewhere the two cannot be told apart.
-      if (!(low >= least_cosine && high > 1.2 * low && a + b > 0)) return;
-      raw.push_back(reciprocity_error(a, b));
-      without[0].push_back(reciprocity_error(a / x.nov, b / x.nol));
-      without[1].push_back(reciprocity_error(a / x.nol, b / x.nov));
-      without[2].push_back(reciprocity_error(a / (x.nov * x.nov), b / (x.nol * x.nol)));
-      without[3].push_back(reciprocity_error(a / (x.nol * x.nol), b / (x.nov * x.nov)));
-    });
-  }
-  const auto cure = [&](const Cosines& c) {
-    return reading_command(t, [&](ColumnMap& map) {
-      map.cosines = {map.cosines.incident + c.incident, map.cosines.outgoing + c.outgoing};
-    });
+  const SampleAngles at(t);
+  const auto compare = [&](std::size_t i, std::size_t, double a, double b) {
+    const auto x = at(i);
+    const double low = std::min(x.nol, x.nov), high = std::max(x.nol, x.nov);
+    // Elsewhere the two cannot be told apart.
+    if (!(low >= least_cosine && high > 1.2 * low && a + b > 0)) return;
+    raw.push_back(reciprocity_error(a, b));
+    without[0].push_back(reciprocity_error(a / x.nov, b / x.nol));
+    without[1].push_back(reciprocity_error(a / x.nol, b / x.nov));
+    without[2].push_back(reciprocity_error(a / (x.nov * x.nov), b / (x.nol * x.nol)));
+    without[3].push_back(reciprocity_error(a / (x.nol * x.nol), b / (x.nov * x.nov)));
   };
-  constexpr std::size_t few = 8;
+  if (facts.reciprocity().error) for_each_reciprocal(t, compare);
+  const bool between = raw.size() < few && t.list();
+  if (between) for_each_between(t, compare);
   const auto trend = trend_of(t);
   std::size_t first = 0;  // of those that the trend decides between
   if (raw.size() >= few) {
@@ -255,22 +309,30 @@ const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) 
     for (std::size_t k = 0; k < without.size(); ++k) {
       const double rest = median(without[k]);
       if (!(with > 0.1 && 3 * rest < with && rest < 0.05 + 2 * sigma())) continue;
+      constexpr double clearly = 0.5;  // of the power
       const Cosines *one = &cosines[2 * k], *other = one + 1;
-      if (trend && trend->distance(*other) < trend->distance(*one)) one = other;
+      const double nearer =
+          trend ? trend->distance(*other) - trend->distance(*one) : 0;  // to the first one
+      if (nearer < 0) std::swap(one, other);
+      const bool decides =
+          std::abs(nearer) > clearly && 2 * trend->after < trend->before;  // which it explains
       all.push_back(fmt::format(
           "exchanging the directions changes values by {:.2g} %, without a cosine by {:.2g} %: "
-          "they look like {} ({})",
-          100 * with, 100 * rest, one->in_words, cure(*one)));
+          "they look like {}{} ({}{})",
+          100 * with, 100 * rest, one->in_words,
+          decides ? "" : fmt::format(" or {}", other->in_words), divided_by(t, *one),
+          decides ? "" : fmt::format(", or --cosines={},{}", other->incident, other->outgoing)));
       return one;
     }
-    if (with > std::max(0.1, 5 * sigma())) {
-      all.push_back(fmt::format(
-          "exchanging the directions changes values by {:.2g} %: they are no f, or the directions "
-          "are not what they seem",
-          100 * with));
+    if (!between && with > std::max(0.1, 5 * sigma())) {
+      if (!takes_as_isotropic(t))
+        all.push_back(fmt::format(
+            "exchanging the directions changes values by {:.3g} %: they are no f, or the "
+            "directions are not what they seem",
+            100 * with));
       return nullptr;
     }
-    first = 2 * without.size();
+    if (!between) first = 2 * without.size();
   }
   if (!trend || !(3 * trend->after < trend->before && trend->after < 0.1 + 2 * sigma()))
     return nullptr;
@@ -278,7 +340,7 @@ const Cosines* warn_of_cosine(TableFacts& facts, std::vector<std::string>& all) 
     if (std::abs(c.incident) < 2 && std::abs(c.outgoing) < 2 && trend->distance(c) < 0.15) {
       all.push_back(fmt::format(
           "away from the highlight values change like a cosine: probably they are {} ({})",
-          c.in_words, cure(c)));
+          c.in_words, divided_by(t, c)));
       return &c;
     }
   return nullptr;
@@ -373,16 +435,33 @@ std::string turned_by(const Table& t, std::initializer_list<const char*> roles) 
   });
 }
 
+/// The table without both cosines.
+Table without_cosines(const Table& t) {
+  Table divided = t;
+  const SampleAngles at(t);
+  for (auto& plane : divided.values)
+    for (std::size_t i = 0; i < t.size(); ++i) plane[i] /= at(i).nol * at(i).nov;
+  return divided;
+}
+
 /// Angles counted from the surface put highlights elsewhere, or let them fall towards grazing.
 bool warn_of_elevation(TableFacts& facts, std::vector<std::string>& all) {
   const Table& t = facts.table();
   constexpr std::size_t large = 100'000;
   if (t.format != "csv" || !t.list() || t.size() > large) return false;
   if (highlight_falls(facts)) {
-    all.push_back(fmt::format(
-        "the highlight falls towards grazing, where those of surfaces rise: are zenith angles "
-        "elevations? ({})",
-        turned_by(t, {"theta_i", "theta_o"})));
+    // Matte surfaces times both cosines do so, too.
+    constexpr Cosines both{{1, 1}, "f cos(theta_i) cos(theta_o)"};
+    constexpr double clearly = 1.5;
+    const double turned = scatter(with_elevations(t, true, true)),
+                 divided = scatter(without_cosines(t));
+    const std::string turn = turned_by(t, {"theta_i", "theta_o"}), divide = divided_by(t, both);
+    all.push_back("the highlight falls towards grazing, where those of surfaces rise: " +
+                  (clearly * turned < divided
+                       ? fmt::format("are zenith angles elevations? ({})", turn)
+                   : clearly * divided < turned
+                       ? fmt::format("probably values are {} ({})", both.in_words, divide)
+                       : fmt::format("elevations ({}), or {}? ({})", turn, both.in_words, divide)));
     return true;
   }
   constexpr double less = 1.6, shows = 0.05, widest_deg = 20;
@@ -449,12 +528,12 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
   const auto many = [&](std::size_t n, double part) {
     return static_cast<double>(n) > part * static_cast<double>(values);
   };
-  // A table all of whose values are short numbers may have been written so.
-  if (rounding.absolute > 0 && many(zeros + coarse, 0.05) && !many(zeros + coarse, 0.95))
-    all.push_back(
-        fmt::format("{} of {} values are rounded to one digit or to 0, which shifts logarithms: "
-                    "--metric l2_cosine minds it less",
-                    zeros + coarse, values));
+  // A table all of whose values are short numbers may have been written so, but for zeros.
+  if (rounding.absolute > 0 && many(zeros + coarse, 0.05) &&
+      (many(zeros, 0.02) || !many(zeros + coarse, 0.95)))
+    all.push_back(fmt::format(
+        "{} of {} values are rounded to one digit or to 0: dark places get upper limits",
+        zeros + coarse, values));
   else if (negative == 0 && many(zeros, 0.005))
     all.push_back(
         fmt::format("{} of {} values are 0, clipped noise or shadow: logarithms leave them out "
@@ -649,13 +728,44 @@ std::optional<std::size_t> negative_channel(TableFacts& facts) {
 
 /// What measured tables have that are f all the same.
 void warn_of_reciprocity(TableFacts& facts, std::vector<std::string>& all) {
-  constexpr double much = 0.05, beside_noise = 5;
+  constexpr double much = 0.05, no_instruments = 0.1, beside_noise = 5;
   const double error = facts.reciprocity().error.value_or(0);
-  if (error > std::max(much, beside_noise * facts.noise().sigma.value_or(0)))
+  if (!(error > std::max(much, beside_noise * facts.noise().sigma.value_or(0)))) return;
+  if (error > no_instruments && takes_as_isotropic(facts.table()))
+    all.push_back(fmt::format(
+        "exchanging the directions changes values by {:.3g} %: no f, other directions, or "
+        "an anisotropic surface",
+        100 * error));
+  else
     all.push_back(fmt::format(
         "exchanging the directions changes values by {:.2g} %, far more than noise: errors of the "
         "instrument, which no model follows",
         100 * error));
+}
+
+double lost_below(TableFacts& facts) {
+  const Table& t = facts.table();
+  constexpr double many = 0.02;       // of the values
+  constexpr double of_half = 1.4826;  // the standard deviation of noise, of its typical size
+  if (facts.noise_floor() > 0) return facts.noise_floor();
+  const SampleAngles at(t);
+  std::size_t zeros = 0, values = 0;
+  const std::size_t step = t.size() / 60'000 + 1;
+  std::vector<double> beside;
+  for (const auto& plane : t.values) {
+    if (std::ranges::none_of(plane, [](double v) { return v > 0; })) continue;
+    for (std::size_t i = 0; i < t.size(); i += step) {
+      values += plane[i] >= 0;
+      if (plane[i] != 0 || mask(at(i), 0) != Mask::valid) continue;
+      ++zeros;
+      for (const std::size_t k : {i - 1, i + 1})
+        if (k < t.size() && plane[k] > 0) beside.push_back(plane[k]);
+    }
+  }
+  if (!(static_cast<double>(zeros) > many * static_cast<double>(values)) || beside.empty())
+    return 0;
+  const double typical = median(beside), digit = std::sqrt(12) * rounding_of(t).absolute;
+  return typical <= 2 * digit ? digit / 2 : of_half * typical;
 }
 
 std::vector<ValueWarning> value_warnings(TableFacts& facts) {

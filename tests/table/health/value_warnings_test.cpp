@@ -130,10 +130,10 @@ TEST(ValueWarnings, SayWhichCosineIsLeftInWhereNoSampleHasAPartner) {
     return said_of(painted(180, 0.3, 0.3, 4), change);
   };
   EXPECT_TRUE(said(0, 0).empty());
-  EXPECT_TRUE(says(said(0, 1), "probably they are f cos(theta_o) (gonio columns FILE --cosine)"));
-  EXPECT_TRUE(says(said(1, 0), "probably they are f cos(theta_i)"));
-  EXPECT_TRUE(says(said(-1, 0), "probably they are f/cos(theta_i)"));
-  EXPECT_TRUE(says(said(0, -1), "probably they are f/cos(theta_o)"));
+  EXPECT_TRUE(says(said(0, 1), "they look like f cos(theta_o) (gonio columns FILE --cosine)"));
+  EXPECT_TRUE(says(said(1, 0), "they look like f cos(theta_i)"));
+  EXPECT_TRUE(says(said(-1, 0), "they look like f/cos(theta_i)"));
+  EXPECT_TRUE(says(said(0, -1), "they look like f/cos(theta_o)"));
   EXPECT_FALSE(says(said(-1, -1), "radiance factor")) << "the cosines make the light";
   // At one incident angle only the other cosine can be told.
   const auto of_one = [](double cosine) {
@@ -147,6 +147,40 @@ TEST(ValueWarnings, SayWhichCosineIsLeftInWhereNoSampleHasAPartner) {
   // A metal's tail falls, too.
   for (const double alpha : {0.2, 0.5, 0.9})
     EXPECT_TRUE(said_of(painted(180, 0, alpha, 4), as_it_is).empty()) << alpha;
+}
+
+/// The directions of painted() with the values of another model.
+Table as_painted(double turn, double first, const char* model, const std::vector<Setting>& with) {
+  Table t = painted(turn, 0.3, 0.3, first);
+  test::put_values(t, bind_model(model, with, 1));
+  return t;
+}
+
+TEST(ValueWarnings, NameBothCosinesWhereNoExchangeTellsThemApart) {
+  // Sheen changes with the angles as a cosine does.
+  const auto sheen = as_painted(0, 0, "charlie/smith_charlie.correlated/schlick",
+                                {{"alpha", {0.5}}, {"f0", {0.05}}});
+  const auto all = said_of(sheen, [](const auto& a, double f) { return f * a.nov; });
+  EXPECT_TRUE(says(all, "f/cos(theta_i)"));
+  EXPECT_TRUE(says(all, "f cos(theta_o)"));
+}
+
+TEST(ValueWarnings, TakeNoMatteSurfaceTimesBothCosinesForElevations) {
+  for (const double turn : {0.0, 180.0}) {
+    const auto matte = as_painted(turn, 4, "oren_nayar", {{"kd", {0.5}}, {"sigma", {0.5}}});
+    const auto all = said_of(matte, [](const auto& a, double f) { return f * a.nol * a.nov; });
+    EXPECT_TRUE(says(all, "f cos(theta_i) cos(theta_o) (gonio columns FILE --cosines=1,1)"))
+        << turn;
+    EXPECT_FALSE(says(all, "90-theta")) << turn;
+  }
+}
+
+TEST(ValueWarnings, DoNotRefuseAnAnisotropicSurface) {
+  const auto all = warnings_of(painted(180),
+                               [](const auto& a, double f) { return a.nol > a.nov ? 1.5 * f : f; });
+  ASSERT_EQ(all.size(), 1u);
+  EXPECT_NE(all[0].text.find("an anisotropic surface"), std::string::npos) << all[0].text;
+  EXPECT_FALSE(all[0].of_unit) << "an anisotropic model may be right";
 }
 
 TEST(ValueWarnings, SayThatExchangedDirectionsChangeValuesByFarMoreThanNoise) {
@@ -192,6 +226,25 @@ TEST(ValueWarnings, SayThatZerosAreLeftOut) {
   const auto rounded = said_of(painted(180, 0.005, 0.15),
                                [](const auto&, double f) { return std::round(f * 1000) / 1000; });
   EXPECT_TRUE(says(rounded, "values are rounded to one digit or to 0"));
+  const auto nearly_all = said_of(painted(180, 0.005, 0.15),
+                                  [](const auto&, double f) { return std::round(f * 100) / 100; });
+  EXPECT_TRUE(says(nearly_all, "values are rounded to one digit or to 0"));
+  EXPECT_FALSE(says(nearly_all, "clipped"));
+}
+
+TEST(ValueWarnings, KnowHowLargeValuesAreThatNoiseTookAway) {
+  const Table clean = painted(180, 0.005, 0.15);
+  TableFacts of_clean(clean);
+  EXPECT_EQ(lost_below(of_clean), 0);
+  Table clipped = clean, rounded = clean;
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (double& f : clipped.values[0]) f = std::max(f + 0.003 * normal(random), 0.0);
+  for (double& f : rounded.values[0]) f = std::round(f * 100) / 100;
+  TableFacts of_clipped(clipped), of_rounded(rounded);
+  EXPECT_GT(lost_below(of_clipped), 0.002);
+  EXPECT_LT(lost_below(of_clipped), 0.008);
+  EXPECT_NEAR(lost_below(of_rounded), 0.005, 1e-6);
 }
 
 TEST(ValueWarnings, SayThatADetectorWasFull) {
