@@ -20,6 +20,8 @@ class CostAlong {
   /// Rise of twice the cost with the unknown held at a value.
   /// \param scale  rise that it is compared with: it is right to 1 % of that
   double rise(double value, double scale);
+  /// Values of all slots in the best fit that the last rise is of.
+  const std::vector<double>& last() const { return solved_.back().second; }
   /// Place between that of the best fit and an end where the rise is `much`, to 1 % of the way; the end
   /// itself where it is less there.
   double reach(double end, double much);

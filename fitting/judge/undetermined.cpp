@@ -1,14 +1,17 @@
 #include "fitting/judge/undetermined.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
+#include <numbers>
 #include <optional>
 #include <string>
 
 #include "fitting/judge/arrow_inverse.h"
 #include "fitting/judge/cost_along.h"
+#include "fitting/solve/start.h"
 #include "number/distributions.h"
 
 #include <fmt/format.h>
@@ -28,6 +31,9 @@ double signal(const FitData<double>& d, std::size_t channels) {
         }
   return squares;
 }
+
+/// Parts of a range at which an unknown is held.
+constexpr std::array places{0.0, 0.03, 0.1, 0.3, 0.6, 1.0};
 
 /// Ends of intervals by the cost itself, where a parabola is no likeness of it.
 class Ends {
@@ -92,6 +98,49 @@ class Ends {
     u_[i].high = reached(problem_.bounds.high[i]);
     if (std::isnan(u_[i].std_error)) u_[i].std_error = (u_[i].high - u_[i].low) / (2 * t);
     u_[i].reason.clear();
+  }
+
+  /// Widens what is known of the others by as far as they move while an unknown is anywhere that it may be.
+  /// \param luck  rise of twice the cost that does as well
+  void hold_over_unknowns(double luck) const {
+    using enum ParameterStatus;
+    const std::size_t n = u_.verdicts.size();
+    std::vector<double> down(n), up(n);
+    for (std::size_t k = 0; k < n; ++k) {
+      const auto& v = u_[k];
+      if (v.status == free || problem_.narrowed[k]) continue;
+      const double low = problem_.bounds.low[k], high = problem_.bounds.high[k];
+      const double here = best_.model.values[problem_.free.slots()[k]];
+      const double t = students_t_quantile(0.975, freedom(k));
+      const double much = std::max(luck, t * t * variance(k) * share_);
+      CostAlong along(problem_, thin_, best_, k);
+      for (const double part : places) {
+        const double at = low + part * (high - low);
+        // On the way to its limit others move as far as their own intervals say.
+        if ((v.status == upper_limit && at > here) || (v.status == lower_limit && at < here))
+          continue;
+        if (!(along.rise(at, much) < much)) continue;
+        for (std::size_t i = 0; i < n; ++i) {
+          const std::size_t slot = problem_.free.slots()[i];
+          const double by = along.last()[slot] - best_.model.values[slot];
+          down[i] = std::min(down[i], by), up[i] = std::max(up[i], by);
+        }
+      }
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+      auto& v = u_[i];
+      const auto within = [&](double x) {
+        return std::clamp(x, problem_.bounds.low[i], problem_.bounds.high[i]);
+      };
+      if (v.status == upper_limit) v.limit = within(v.limit + up[i]);
+      if (v.status == lower_limit) v.limit = within(v.limit + down[i]);
+      if (std::isnan(v.std_error)) continue;
+      const double x = fitted_.model.values[problem_.free.slots()[i]];
+      const double low = v.low_end(x), high = v.high_end(x);
+      constexpr double little = 0.05;  // of the interval: lets ± stay
+      if (!(std::max(up[i], -down[i]) > little * (high - low))) continue;
+      v.low = within(low + down[i]), v.high = within(high + up[i]);
+    }
   }
 
   /// True where the cost half-way to the ends of x ± t σ, all others moving along a straight line, is
@@ -170,16 +219,45 @@ std::optional<double> forget_needless_lobes(const Problem& p,
                                             const Fitted& f,
                                             double cost,
                                             double luck,
+                                            bool misses,
                                             Uncertainty& u) {
   if (p.start.model.diffuse.empty() || p.start.model.lobes.empty()) return {};
   const Model diffuse = with_lobes(p.start.model, {});
   const Problem rest = with_free(p, diffuse, slots_read(diffuse));
   if (rest.free.size() == p.free.size()) return {};  // its lobes are given
+  // Not from the values beside the lobe: a diffuse term that it took to 0 has no logarithm.
+  const auto start = find_starts(rest, thin, f.huber)[0].values;
   const double without =
-      minimise(rest, thin, {rest.start.model, f.model.values, {}}, f.huber).solution.at.cost;
+      minimise(rest, thin, {rest.start.model, start, {}}, f.huber).solution.at.cost;
   if (2 * (without - cost) >= luck) return {};
-  forget_lobes(p, u, Lobes::whole, "without the lobe the model meets the table as well");
+  forget_lobes(p, u, Lobes::whole,
+               misses ? "the model misses the table with and without the lobe"
+                      : "without the lobe the model meets the table as well");
   return 2 * (without - cost);
+}
+
+}  // namespace
+
+namespace {
+
+bool is(const ParameterVerdict& v, ParameterStatus status) {
+  return v.status == status;
+}
+void leave_unbounded(ParameterVerdict& v) {
+  v.status = ParameterStatus::unbounded;
+  v.reason = "best value for this model; the model is too wrong to bound it";
+}
+
+/// Unknowns of a lobe, by the number of the free slot.
+std::vector<std::size_t> unknowns_of(const Problem& p, const Lobe& l) {
+  std::vector<std::size_t> all;
+  for (const auto* t : {&l.ndf, &l.masking, &l.fresnel})
+    for (const std::size_t k : t->parameters) {
+      const auto& q = p.start.model.parameters[k];
+      for (std::size_t s = q.first; s < q.first + q.count; ++s)
+        if (p.free.mask()[s]) all.push_back(p.free.index(s));
+    }
+  return all;
 }
 
 }  // namespace
@@ -202,7 +280,8 @@ bool find_undetermined(const Problem& p,
                        const Fitted& f,
                        const SampleCounts& counts,
                        bool widened,
-                       Uncertainty& u) {
+                       Uncertainty& u,
+                       double lost_below) {
   const Accumulator<double> accumulate(p.start.model, thin, p.free, f.huber);
   const NormalEquations here = accumulate.normal_equations(f.model.values);
   const std::size_t n = p.free.size();
@@ -228,7 +307,7 @@ bool find_undetermined(const Problem& p,
     // All channels' values are moved at once: each changes its own channel's cost alone.
     std::vector<double> most(q.count);
     auto moved = f.model.values;
-    for (const double part : {0.0, 0.03, 0.1, 0.3, 0.6, 1.0}) {
+    for (const double part : places) {
       for (const std::size_t s : asked) {
         const double low = p.bounds.low[p.free.index(s)], high = p.bounds.high[p.free.index(s)];
         moved[s] = low + part * (high - low);
@@ -244,7 +323,7 @@ bool find_undetermined(const Problem& p,
         u[p.free.index(s)].forget("moved over its whole range it changes no more than luck does");
   }
 
-  const auto needless = forget_needless_lobes(p, thin, f, here.cost, luck * variance, u);
+  const auto needless = forget_needless_lobes(p, thin, f, here.cost, luck * variance, widened, u);
 
   // What is left has a value with an interval, or a limit.
   constexpr std::size_t many = 32;  // unknowns, each of which would take fits of all the others
@@ -275,19 +354,43 @@ bool find_undetermined(const Problem& p,
         (width > small * std::abs(x) && !ends.is_parabola(i, accumulate)))
       ends.find_ends(i);
   }
-  for (std::size_t i = 0; i < n; ++i) {
-    if (std::isnan(u[i].std_error)) continue;
-    const double x = f.model.values[p.free.slots()[i]];
-    const double low = u[i].low_end(x), high = u[i].high_end(x);
-    const double some = 0.01 * (p.bounds.high[i] - p.bounds.low[i]);
-    if (!(low <= p.bounds.low[i] + some && high >= p.bounds.high[i] - some)) continue;
-    if (widened) {  // by what the model cannot describe: of this model it is still the best value
-      u[i].status = ParameterStatus::unbounded;
-      u[i].reason = "best value for this model; the model is too wrong to bound it";
-      continue;
+  const auto leave_out_whole_ranges = [&] {
+    using enum ParameterStatus;
+    for (std::size_t i = 0; i < n; ++i) {
+      if (std::isnan(u[i].std_error) || u[i].status == ParameterStatus::unbounded) continue;
+      const double x = f.model.values[p.free.slots()[i]];
+      const double low = u[i].low_end(x), high = u[i].high_end(x);
+      const double some = 0.01 * (p.bounds.high[i] - p.bounds.low[i]);
+      if (!(low <= p.bounds.low[i] + some && high >= p.bounds.high[i] - some)) continue;
+      if (widened) {  // by what the model cannot describe: of this model it is still the best value
+        leave_unbounded(u[i]);
+        continue;
+      }
+      u[i].forget("its interval is as wide as its range");
     }
-    u[i].forget("its interval is as wide as its range");
-  }
+    for (const auto& lobe : p.start.model.lobes) {
+      const auto own = unknowns_of(p, lobe);
+      if (std::ranges::any_of(own, [&](std::size_t i) { return is(u[i], unbounded); }))
+        for (const std::size_t i : own)
+          if (is(u[i], free)) leave_unbounded(u[i]);
+    }
+  };
+  leave_out_whole_ranges();
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t s = q.first; lost_below > 0 && s < q.first + q.count; ++s) {
+      if (!q.name.starts_with("kd") || !p.free.mask()[s]) continue;
+      const std::size_t i = p.free.index(s);
+      const double high = u[i].high_end(f.model.values[s]);
+      const bool at_low =
+          is(u[i], ParameterStatus::at_bound) && f.model.values[s] < p.bounds.high[i];
+      if (!is(u[i], ParameterStatus::free) && !at_low) continue;
+      u[i].keep_limit(
+          ParameterStatus::upper_limit,
+          std::min(std::isnan(high) ? std::numbers::pi * lost_below : high, p.bounds.high[i]),
+          "noise or digits took dark values away: it may be less");
+    }
+  ends.hold_over_unknowns(luck * variance);
+  leave_out_whole_ranges();
   return false;
 }
 

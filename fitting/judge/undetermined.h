@@ -32,12 +32,16 @@ void forget_lobes(const Problem&, Uncertainty&, Lobes, const std::string& why);
 /// that of the values that cost less than t² variances of a value more [profile likelihood].
 /// \param thin  a thinned table   \param counts  of the whole one
 /// \param widened  whether the intervals allow for a misfit: a value whose whole range that leaves open
-///                 stays, as the best one of this model
+///                 stays, as the best one of this model, and so do the others of its lobe
+/// \param lost_below  size of values that noise or digits took away [1/sr]: a diffuse term then has an upper limit
+///
+/// What is still known holds wherever the unknown ones may be: its interval includes how far it moves with them.
 bool find_undetermined(const Problem&,
                        const FitData<double>& thin,
                        const Fitted&,
                        const SampleCounts&,
                        bool widened,
-                       Uncertainty&);
+                       Uncertainty&,
+                       double lost_below = 0);
 
 }  // namespace gonio

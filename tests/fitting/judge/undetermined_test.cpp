@@ -269,6 +269,43 @@ TEST(Undetermined, WhatALobeThatIsNotKnownMayTakeIsInTheDiffusesInterval) {
   EXPECT_GE(inside, not_known - 1);
 }
 
+/// f = 0.02 with 10 % noise, seen 10° from the normal all round: no diffuse term differs there from another.
+Table matte_near_the_normal(std::uint64_t seed) {
+  Table t = synthesize(test::bind("lambert", "kd=0.0628318530717959", 1),
+                       {.layout = Layout::hemisphere, .noise = 0.1, .seed = seed});
+  leave_out(t, "theta_i > 20 or theta_i < 10 or theta_o > 12");
+  return t;
+}
+
+TEST(Undetermined, DiffuseHoldsWhateverAnUnknownWidthOfItsOwnIs) {
+  for (const char* model : {"oren_nayar", "eon"}) {
+    unsigned inside = 0;
+    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+      FitOptions o;
+      o.model = model;
+      o.intervals = Intervals::independent;
+      const auto kd = parameter(fit(matte_near_the_normal(seed), o).document, "kd");
+      inside += kd.status[0] != ParameterStatus::free ||
+                (kd.ci95_low[0] <= 0.0628 && 0.0629 <= kd.ci95_high[0]);
+    }
+    EXPECT_GE(inside, 8u) << model;
+  }
+}
+
+TEST(Undetermined, ALobeIsNeedlessThoughItTookTheDiffuseTermsLight) {
+  // Its kd of 0 is no place to begin the fit without the lobe from.
+  constexpr const char* model = "lambert+beckmann/smith_beckmann.correlated/schlick";
+  unsigned at_odds = 0;
+  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
+    FitOptions o;
+    o.model = model;
+    o.intervals = Intervals::independent;
+    const auto kd = parameter(fit(matte_near_the_normal(seed), o).document, "kd");
+    at_odds += kd.status[0] == ParameterStatus::upper_limit && kd.limit[0] < 0.0628;
+  }
+  EXPECT_EQ(at_odds, 0u);
+}
+
 TEST(Undetermined, DiffuseThatIsNotThereLeavesTheLobesIntervalsWhole) {
   GONIO_MANY_FITS();
   const SynthOptions in_plane{.layout = Layout::in_plane, .noise = 0.02};
@@ -314,6 +351,20 @@ TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
                 widened ? ParameterStatus::unbounded : ParameterStatus::not_identifiable);
       EXPECT_FALSE(u[i].reason.empty());
     }
+  }
+}
+
+TEST(Undetermined, AMisfitThatLeavesOneValueOfALobeOpenBoundsNoneOfThem) {
+  const auto truth = test::bind("lambert+beckmann/smith_beckmann.correlated/schlick",
+                                "alpha=0.2,f0=0.05,kd=0.3", 1);
+  Table t = synthesize(truth, {.layout = Layout::hemisphere, .noise = 0.02});
+  for (double& f : t.values[0]) f *= 0.001;  // a scale that no F of 1 at 90° allows
+  FitOptions o;
+  o.model = to_text(truth.model.spec);
+  const auto d = fit(t, o).document;
+  ASSERT_TRUE(d.misfit.told);
+  if (parameter(d, "f0").status[0] == ParameterStatus::unbounded) {
+    EXPECT_EQ(parameter(d, "alpha").status[0], ParameterStatus::unbounded);
   }
 }
 
