@@ -254,7 +254,8 @@ FitResult fit_and_judge(const Table& t,
   find_dark_bias(lack, sampling, p, f, u, table);
   widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
-  const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u);
+  const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u,
+                                          t.truth ? 0 : lost_below(table));
   keep_to_what_is_seen(table, p, f.model.values, lack.misfit, u);
   watch.lap("limits_ms");
   for (std::size_t i = 0; i < in_order.size(); ++i)

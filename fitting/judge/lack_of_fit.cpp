@@ -7,9 +7,11 @@
 #include <vector>
 
 #include "base/quantile.h"
+#include "brdf/model/evaluate.h"
 #include "fitting/judge/regression.h"
 #include "fitting/judge/warnings.h"
 #include "number/distributions.h"
+#include "table/health/value_warnings.h"
 
 namespace gonio {
 namespace {
@@ -38,6 +40,25 @@ double noise_square(const Left& left) {
   for (const auto& v : left.values)
     if (!std::isnan(v.noise)) sizes.push_back(std::abs(v.noise));
   return 2 * sizes.size() > left.values.size() ? std::pow(1.4826 * median(sizes), 2) : std::nan("");
+}
+
+/// The table without what the model has within noise of one size, of which the lower half is lost.
+Table without_lost(const Table& t, const BoundModel& b, double lost_below) {
+  constexpr double noises = 8;  // beyond which logarithms are hardly lowered
+  Table bright = t;
+  const SampleAngles at(t, t.bins());
+  constexpr std::size_t block = 4096;
+  std::vector<FrameAngles<double>> angles;
+  for (std::size_t first = 0; first < t.size(); first += block) {
+    const std::size_t last = std::min(first + block, t.size());
+    angles.clear();
+    for (std::size_t i = first; i < last; ++i) angles.push_back(at.frame(i));
+    const auto f = evaluate(b, angles);
+    for (std::size_t c = 0; c < f.size(); ++c)
+      for (std::size_t i = first; i < last; ++i)
+        if (!(f[c][i - first] > noises * lost_below)) bright.values[c][i] = std::nan("");
+  }
+  return bright;
 }
 
 /// A file of another scale shows so.  A wrong model misses several angles, and within one angle not by one factor.
@@ -270,7 +291,9 @@ std::vector<LackOfFit::SharedGains> gains_of(const Left& left,
 
 }  // namespace
 
-LackOfFit lack_of_fit(
+namespace {
+
+LackOfFit lack_of_all(
     const Sampling& s, const Problem& p, const Fitted& f, double samples_used, TableFacts& facts) {
   LackOfFit found;
   Misfit& m = found.misfit;
@@ -287,7 +310,7 @@ LackOfFit lack_of_fit(
       Sampling beside_bulk = s;
       beside_bulk.set_bulk(bulk_of(robust, s));
       const Fitted beside = compared_by(beside_bulk, robust, scan_samples, f);
-      found = lack_of_fit(beside_bulk, robust, beside, samples_used, facts);
+      found = lack_of_all(beside_bulk, robust, beside, samples_used, facts);
       found.outliers = alone;
       found.moved_by_outliers = p.free.of(f.model.values);
       const auto without = p.free.of(beside.model.values);
@@ -400,6 +423,38 @@ LackOfFit lack_of_fit(
   return found;
 }
 
+}  // namespace
+
+LackOfFit lack_of_fit(
+    const Sampling& s, const Problem& p, const Fitted& f, double samples_used, TableFacts& facts) {
+  const double lost = s.table().truth || p.options.robust ? 0 : lost_below(facts);
+  if (!(lost > 0)) return lack_of_all(s, p, f, samples_used, facts);
+  // Beside values that lost their lower half to noise the right model misses the others, too.
+  const Table bright = without_lost(s.table(), f.model, lost);
+  const Sampling sampling = sampling_for(p, bright, bright.bins());
+  const auto data = fit_data<double>(sampling, scan_samples);
+  constexpr std::size_t few_values = 24;
+  LackOfFit found;
+  if (data.counts.used < few_values + p.free.size()) {
+    found.misfit.too_few = true;
+    found.misfit.note = "the values above noise are too few to tell";
+    found.moved_by_noise = p.free.of(f.model.values);  // which may be noise
+    return found;
+  }
+  const Fitted beside = minimise(p, data, f.model, no_huber);
+  found = lack_of_all(sampling, p, beside, samples_used, facts);
+  found.moved_by_noise = p.free.of(f.model.values);
+  const auto without = p.free.of(beside.model.values);
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t slot = q.first; slot < q.first + q.count; ++slot) {
+      if (!p.free.mask()[slot]) continue;
+      const std::size_t i = p.free.index(slot);
+      // What the dark values say of a diffuse term is a limit.
+      found.moved_by_noise[i] -= q.name.starts_with("kd") ? found.moved_by_noise[i] : without[i];
+    }
+  return found;
+}
+
 double LackOfFit::moved(std::size_t i) const {
   return std::hypot(moved_by_outliers.empty() ? 0 : moved_by_outliers[i],
                     moved_by_noise.empty() ? 0 : moved_by_noise[i]);
@@ -412,7 +467,7 @@ void find_dark_bias(LackOfFit& found,
                     const Uncertainty& judged,
                     TableFacts& table) {
   if (p.options.metric != Metric::log || p.options.robust || table.table().truth ||
-      found.misfit.told || found.outliers)
+      found.misfit.told || found.outliers || lost_below(table) > 0)
     return;
   const Left left = left_over(sampling, p, f, table);
   std::vector<std::pair<double, double>> values;  // f, and ln of data over model

@@ -62,6 +62,7 @@ struct LackOfFit {
 /// A misfit is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.  What is left
 /// is also compared with what neighbouring values differ by, and the scales of incident angles with what
 /// an instrument may do.
+/// Values that the model has within the noise of a table that lost values to it are left out: others of them are lifted.
 /// Where a table has outliers, a robust fit is judged instead: else their pull would count as misfit.
 ///
 /// Misfit that follows a parameter cannot be seen in what is left; it is taken to be up to four times as
@@ -70,7 +71,8 @@ struct LackOfFit {
 LackOfFit lack_of_fit(
     const Sampling&, const Problem&, const Fitted&, double samples_used, TableFacts&);
 
-/// Finds by how much noise of the darkest values moves a fit of logarithms.
+/// Finds by how much noise of the darkest values moves a fit of logarithms; not where the lower ones of them are lost, which
+/// lifts the rest.
 /// \param judged  errors before they are widened, beside which little is none
 void find_dark_bias(LackOfFit&,
                     const Sampling&,

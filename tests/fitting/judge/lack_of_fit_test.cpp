@@ -639,5 +639,32 @@ TEST(LackOfFit, MakesTheDiffuseTermsIntervalHoldWhatDarkNoiseTakesFromItsLogarit
   EXPECT_GE(told, seeds / 2);
 }
 
+TEST(LackOfFit, AccusesNoRightModelBesideNoiseThatWasClipped) {
+  // Zeros are left out of logarithms: what is left of the dark values is lifted.
+  const auto truth = test::bind(paint, "alpha=0.2,f0=0.05,kd=0.004", 1);
+  for (unsigned seed = 1; seed <= 3; ++seed) {
+    Table t;
+    t.format = "csv";
+    t.channels = {"f"};
+    test::put_on_goniometer(t, truth);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (double& f : t.values[0])
+      f = std::max(f * std::exp(0.02 * normal(random)) + 0.003 * normal(random), 0.0);
+    FitOptions o;
+    o.model = paint;
+    const auto d = fit(t, o).document;
+    EXPECT_FALSE(d.misfit.told) << seed << " " << d.misfit.size;
+    const auto& kd = test::parameter(d, "kd");
+    EXPECT_EQ(kd.status[0], ParameterStatus::upper_limit) << seed;
+    EXPECT_GT(kd.limit[0], 0.004) << seed;
+    const auto& alpha = test::parameter(d, "alpha");
+    EXPECT_LE(alpha.ci95_low[0], 0.2) << seed;
+    EXPECT_GE(alpha.ci95_high[0], 0.2) << seed;
+    for (const auto& w : d.warnings)
+      EXPECT_EQ(w.find("noise lowers"), w.npos) << "what is clipped lifts them";
+  }
+}
+
 }  // namespace
 }  // namespace gonio
