@@ -135,7 +135,9 @@ std::vector<std::string> others_of(const ModelSpec& spec) {
   if (ndf == "ggx" && shape == "smith_ggx") add_lobe("beckmann", "smith_beckmann" + form, fresnel);
   if (fresnel == "schlick")
     for (const char* other : {"schlick.f90", "schlick.weighted"}) add_lobe(ndf, masking, other);
-  if (fresnel != "dielectric" && fresnel != "conductor")
+  if (fresnel == "dielectric" || fresnel == "conductor")
+    add_lobe(ndf, masking, fresnel + ".weighted");
+  else
     add_lobe(ndf, masking, diffuse.empty() ? "conductor" : "dielectric");
   if (shape.starts_with("smith_") && !form.empty())
     add_lobe(ndf, shape + (form == ".correlated" ? ".separable" : ".correlated"), fresnel);
@@ -235,7 +237,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
   if (f.cost_of_fewer < d.cost &&
       std::ranges::count(spec.lobes, spec.lobes[0]) == std::ssize(spec.lobes))
     steps.add_model(without_lobe(spec, 0), "meets the table better");
-  else if (unknown && !mended && !f.no_f)
+  else if (unknown && !mended && !f.no_f && !d.misfit.told)
     steps.add_model(less, f.needless ? "does as well: nothing is known of the lobe"
                                      : "says all that is known: of the lobe nothing is");
   if (f.unresolved)
@@ -243,9 +245,12 @@ std::vector<std::string> next_steps(const FitOptions& o,
         fmt::format("outgoing angles {:.1g}° apart or less around the mirror direction may resolve "
                     "the highlight",
                     2 * f.unresolved->half_width_deg / 3));
-  if (returns_too_much(d.physics) && spec.diffuse == "lambert" && !spec.lobes.empty() && !f.no_f)
-    steps.add_model(with_diffuse(spec, "lambert.coupled"),
-                    "may return less light: its diffuse is what the lobe lets through");
+  if (returns_too_much(d.physics) && spec.diffuse == "lambert" && !spec.lobes.empty() && !f.no_f) {
+    constexpr double as_well = 1.05;  // log RMS
+    const auto coupled = with_diffuse(spec, "lambert.coupled");
+    if (attempt(coupled) <= as_well * attempt(d.model))
+      steps.add_model(coupled, "may return less light: its diffuse is what the lobe lets through");
+  }
 
   for (const auto& s : d.sensitivity)
     if (s.log_rms < 0.95 * s.log_rms_here)

@@ -100,6 +100,12 @@ std::vector<std::string> warnings(const FitOptions& o,
                               std::acos(std::clamp(l.z, -1.0, 1.0)) / degree,
                               std::acos(std::clamp(v.z, -1.0, 1.0)) / degree));
   }
+  constexpr double least_bias = 0.01;  // of a value
+  if (d.log_offset > 0 && !f.offset && !(f.dark_bias > least_bias))
+    all.push_back(fmt::format(
+        "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
+        "to dark places",
+        d.log_offset));
   for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
   if (const auto& odd = f.odd_angle)
@@ -124,8 +130,8 @@ std::vector<std::string> warnings(const FitOptions& o,
     all.push_back("whether the model is right is not known: " + d.misfit.note);
   if (f.few_angles)
     all.push_back(fmt::format(
-        "{} incident angle{}: an error common to all values of one angle is hard to estimate", f.angles,
-        f.angles == 1 ? "" : "s are few"));
+        "{} incident angle{}: an error common to all values of one angle is hard to estimate",
+        f.angles, f.angles == 1 ? "" : "s are few"));
   if (f.retro)
     all.push_back(
         fmt::format("the highlight ({:.3g} 1/sr) sits at wo = wi and not at the half vector: a "
@@ -144,17 +150,11 @@ std::vector<std::string> warnings(const FitOptions& o,
         fmt::format("relative errors shift values by about {}, more than intervals allow for: "
                     "--metric log does not",
                     percent(bias)));
-  constexpr double least_bias = 0.01;  // of a value
   if (f.dark_bias > least_bias)
     all.push_back(fmt::format(
         "noise lowers the logarithms of the darkest values by about {}, kd with them: intervals "
         "include it",
         percent(f.dark_bias)));
-  else if (d.log_offset > 0 && !f.offset)
-    all.push_back(fmt::format(
-        "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
-        "to dark places",
-        d.log_offset));
   if (f.cost_of_fewer < d.cost)
     all.push_back(
         fmt::format("with fewer lobes the model meets the table better (cost {:.6g} for {:.6g}): a "
@@ -162,8 +162,10 @@ std::vector<std::string> warnings(const FitOptions& o,
                     f.cost_of_fewer, d.cost));
   if (f.needless)
     all.emplace_back(
-        "without its lobe the model meets the table as well or better: nothing is known of the "
-        "lobe");
+        d.misfit.told
+            ? "the model misses the table with and without its lobe: nothing is known of the lobe"
+            : "without its lobe the model meets the table as well or better: nothing is known of "
+              "the lobe");
   return all;
 }
 

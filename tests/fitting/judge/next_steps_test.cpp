@@ -224,6 +224,40 @@ TEST(NextSteps, OfModelsThatTakeUpLittleOfAMisfitNameTheNearestAsOneThatMissesTo
       << named[0];
 }
 
+TEST(NextSteps, OfAMetalOfAnotherScaleLeaveTheScaleOpen) {
+  constexpr const char* gold = "ggx/smith_ggx.correlated/conductor";
+  Table t = synthesize(test::bind(gold, "alpha=0.2,eta=0.3,k=3", 1),
+                       {.layout = Layout::random, .noise = 0.02});
+  for (double& f : t.values[0]) f *= 0.05;
+  EXPECT_TRUE(names(fit_of(t, gold), std::string(gold) + ".weighted"));
+}
+
+TEST(NextSteps, OfAMisfitNoModelDoesAsWell) {
+  const auto d = quick_fit(
+      synthesize(test::bind("eon", "kd=0.6,r=1", 1), {.layout = Layout::random, .noise = 0.005}),
+      paint);
+  ASSERT_TRUE(d.misfit.told);
+  EXPECT_FALSE(names(d, "as well")) << d.next.front();
+  EXPECT_NE(test::parameter(d, "alpha").reason[0].find("misses the table with and without"),
+            std::string::npos);
+}
+
+TEST(NextSteps, OfTooMuchLightNameNoModelThatMissesMore) {
+  FitDocument d;
+  d.model = paint;
+  d.solver.termination = "converged";
+  d.physics.theta_i_deg = {75};
+  d.physics.model_albedo = {{1.2}};
+  const auto steps = [&](double coupled) {
+    return next_steps({}, d, {},
+                      [&](const std::string& spec) { return spec == paint ? 0.1 : coupled; });
+  };
+  EXPECT_TRUE(steps(0.14).empty());
+  EXPECT_TRUE(steps(std::nan("")).empty()) << "nobody tried it";
+  ASSERT_EQ(steps(0.1).size(), 1U);
+  EXPECT_NE(steps(0.1)[0].find("may return less light"), std::string::npos);
+}
+
 TEST(NextSteps, OfANeedlessLobeNameDiffuseTermsWithoutIt) {
   const Table t =
       synthesize(test::bind("eon", "kd=0.6,r=1", 1), {.layout = Layout::random, .noise = 0.005});
