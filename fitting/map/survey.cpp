@@ -419,6 +419,9 @@ std::string lamp_on_the_right(const Stack& stack) {
 }  // namespace
 
 StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
+  if (o.refine_normals && o.model == "lambert" && stack.stack().values == StackValues::f_r)
+    throw wrong_usage(
+        "normals: f_r of lambert is the same whatever the normal; values f_r_cosine show it");
   StackSurvey found = survey(sample_of(stack, few_squares(stack)), o);
   TexelOptions refined = o;
   refined.refine_normals = o.refine_normals || found.seeks_normals;

@@ -249,7 +249,9 @@ TEST(FitMapCommand, RefusesWrongWordsInOneLine) {
                         {"fit_map s/stack.json --tile-size 8,x -o m.exr", "--tile-size 8,x"},
                         {"fit_map s/stack.json -o s/stack.json", "would be overwritten"},
                         {"fit_map s/stack.json --metric vague -o m.exr", "vague"},
-                        {"fit_map s/stack.json --offset 0.1 -o m.exr", "not with l2_cosine"}});
+                        {"fit_map s/stack.json --offset 0.1 -o m.exr", "not with l2_cosine"},
+                        {"fit_map s/stack.json --model lambert --refine-normals -o m.exr",
+                         "values f_r_cosine show it"}});
 }
 
 TEST(FitMapCommand, OverwritesNothingThatItReads) {
