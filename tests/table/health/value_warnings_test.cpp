@@ -226,7 +226,7 @@ TEST(ValueWarnings, SayThatZerosAreLeftOut) {
   const auto rounded = said_of(painted(180, 0.005, 0.15),
                                [](const auto&, double f) { return std::round(f * 1000) / 1000; });
   EXPECT_TRUE(says(rounded, "values are rounded to one digit or to 0"));
-  const auto nearly_all = said_of(painted(180, 0.005, 0.15),
+  const auto nearly_all = said_of(painted(180, 0.005, 0.3),
                                   [](const auto&, double f) { return std::round(f * 100) / 100; });
   EXPECT_TRUE(says(nearly_all, "values are rounded to one digit or to 0"));
   EXPECT_FALSE(says(nearly_all, "clipped"));
