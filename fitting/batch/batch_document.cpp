@@ -311,8 +311,9 @@ std::optional<ReadDocument> parse_document(const std::string& path, const std::s
                   std::move(k.preview)},
                  std::move(k.made_with),
                  std::move(k.sha256)};
-  if (const auto bytes = memory_of(d); bytes > most_of_a_row)
-    throw bad_input(path, "the document", fmt::format("{} bytes that a summary shows of it", bytes),
+  if (const auto needed = memory_of(d); needed > most_of_a_row)
+    throw bad_input(path, "the document",
+                    fmt::format("{} bytes that a summary shows of it", needed),
                     fmt::format("at most {}", most_of_a_row));
   return d;
 }

@@ -655,9 +655,9 @@ TEST(LackOfFit, AccusesNoRightModelBesideNoiseThatWasClipped) {
     o.model = paint;
     const auto d = fit(t, o).document;
     EXPECT_FALSE(d.misfit.told) << seed << " " << d.misfit.size;
-    const auto& kd = test::parameter(d, "kd");
-    EXPECT_EQ(kd.status[0], ParameterStatus::upper_limit) << seed;
-    EXPECT_GT(kd.limit[0], 0.004) << seed;
+    const auto& matte = test::parameter(d, "kd");
+    EXPECT_EQ(matte.status[0], ParameterStatus::upper_limit) << seed;
+    EXPECT_GT(matte.limit[0], 0.004) << seed;
     const auto& alpha = test::parameter(d, "alpha");
     EXPECT_LE(alpha.ci95_low[0], 0.2) << seed;
     EXPECT_GE(alpha.ci95_high[0], 0.2) << seed;
