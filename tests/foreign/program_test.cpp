@@ -2,8 +2,10 @@
 #include "foreign/program.h"
 
 #include <cmath>
+#include <limits>
 
 #include "foreign/interpret.h"
+#include "number/wide.h"
 
 #include <gtest/gtest.h>
 
@@ -31,6 +33,13 @@ TEST(Program, MasksMeetAgain) {
   EXPECT_TRUE(p.is(p(Op::either, b, not_b), 1));
   EXPECT_TRUE(p.is(p(Op::both, b, not_b), 0));
   EXPECT_EQ(p(Op::inverse, not_b), b);
+}
+
+TEST(Functions, OfFiftyDigitsEndWhereTheExponentIsNoNumber) {
+  for (const Wide nan : {std::numeric_limits<Wide>::quiet_NaN(), sqrt(Wide(-1)), -sqrt(Wide(-1))}) {
+    EXPECT_TRUE(isnan(Functions<Wide>::call<Call::exp2>(nan, Wide(0))));
+    EXPECT_TRUE(isnan(Functions<Wide>::call<Call::pow>(Wide(2), nan)));
+  }
 }
 
 TEST(Program, TooManyOperationsAreRefused) {
