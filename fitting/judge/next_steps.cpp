@@ -246,7 +246,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
                     "the highlight",
                     2 * f.unresolved->half_width_deg / 3));
   if (returns_too_much(d.physics) && spec.diffuse == "lambert" && !spec.lobes.empty() && !f.no_f) {
-    constexpr double as_well = 1.05;  // log RMS
+    constexpr double as_well = 1.25;  // log RMS
     const auto coupled = with_diffuse(spec, "lambert.coupled");
     if (attempt(coupled) <= as_well * attempt(d.model))
       steps.add_model(coupled, "may return less light: its diffuse is what the lobe lets through");

@@ -386,7 +386,7 @@ bool find_undetermined(const Problem& p,
       if (!is(u[i], ParameterStatus::free) && !at_low) continue;
       u[i].keep_limit(
           ParameterStatus::upper_limit,
-          std::min(std::isnan(high) ? std::numbers::pi * lost_below : high, p.bounds.high[i]),
+          std::min((std::isnan(high) ? 0 : high) + std::numbers::pi * lost_below, p.bounds.high[i]),
           "noise or digits took dark values away: it may be less");
     }
   ends.hold_over_unknowns(luck * variance);

@@ -497,6 +497,17 @@ void warn_of_dark_channels(const Table& t, std::vector<std::string>& all) {
         fmt::format("no value of channel {} is above 0: nothing is known of it", few_of(dark)));
 }
 
+constexpr double digits_of_one = 20;  ///< standard deviations of rounding in six steps
+
+/// True where rounding to 0 or to one digit shifts many values.  A table all of whose values are short numbers may have been
+/// written so, but for zeros.
+bool is_coarse(std::size_t zeros, std::size_t coarse, std::size_t values) {
+  const auto many = [&](std::size_t n, double part) {
+    return static_cast<double>(n) > part * static_cast<double>(values);
+  };
+  return many(zeros + coarse, 0.05) && (many(zeros, 0.02) || !many(zeros + coarse, 0.95));
+}
+
 void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
   // Numbers that somebody typed may be as short.
   constexpr std::size_t most_by_hand = 50, few_values = 8;
@@ -504,7 +515,7 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
   const Table& t = facts.table();
   const SampleAngles at(t);
   const FileRounding rounding = rounding_of(t);
-  const double one_digit = 20 * rounding.absolute;  // six steps
+  const double one_digit = digits_of_one * rounding.absolute;
   std::size_t zeros = 0, coarse = 0, values = 0, negative = 0;
   std::vector<double> lost;  // by rounding, of each value
   std::set<double> different;
@@ -528,9 +539,7 @@ void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
   const auto many = [&](std::size_t n, double part) {
     return static_cast<double>(n) > part * static_cast<double>(values);
   };
-  // A table all of whose values are short numbers may have been written so, but for zeros.
-  if (rounding.absolute > 0 && many(zeros + coarse, 0.05) &&
-      (many(zeros, 0.02) || !many(zeros + coarse, 0.95)))
+  if (rounding.absolute > 0 && is_coarse(zeros, coarse, values))
     all.push_back(fmt::format(
         "{} of {} values are rounded to one digit or to 0: dark places get upper limits",
         zeros + coarse, values));
@@ -749,23 +758,25 @@ double lost_below(TableFacts& facts) {
   constexpr double of_half = 1.4826;  // the standard deviation of noise, of its typical size
   if (facts.noise_floor() > 0) return facts.noise_floor();
   const SampleAngles at(t);
-  std::size_t zeros = 0, values = 0;
+  const double rounding = rounding_of(t).absolute;
+  std::size_t zeros = 0, coarse = 0, values = 0;
   const std::size_t step = t.size() / 60'000 + 1;
   std::vector<double> beside;
   for (const auto& plane : t.values) {
     if (std::ranges::none_of(plane, [](double v) { return v > 0; })) continue;
     for (std::size_t i = 0; i < t.size(); i += step) {
       values += plane[i] >= 0;
+      coarse += plane[i] > 0 && plane[i] < digits_of_one * rounding;
       if (plane[i] != 0 || mask(at(i), 0) != Mask::valid) continue;
       ++zeros;
       for (const std::size_t k : {i - 1, i + 1})
         if (k < t.size() && plane[k] > 0) beside.push_back(plane[k]);
     }
   }
+  if (rounding > 0 && is_coarse(zeros, coarse, values)) return std::sqrt(12) * rounding / 2;
   if (!(static_cast<double>(zeros) > many * static_cast<double>(values)) || beside.empty())
     return 0;
-  const double typical = median(beside), digit = std::sqrt(12) * rounding_of(t).absolute;
-  return typical <= 2 * digit ? digit / 2 : of_half * typical;
+  return of_half * median(beside);
 }
 
 std::vector<ValueWarning> value_warnings(TableFacts& facts) {
