@@ -27,6 +27,7 @@ std::string name_of_form(scene::Form form) {
       "no diffuse",
       "Lambert diffuse",
       "retro-reflective diffuse",
+      "the given diffuse term",
       "uncoupled diffuse",
       "coupled diffuse",
       "three wavelengths",
@@ -35,6 +36,7 @@ std::string name_of_form(scene::Form form) {
       "the environment's integral",
       "float",
       "double"};
+  static_assert(names.back() != nullptr, "a form without a name");
   return names[static_cast<std::size_t>(form)];
 }
 
