@@ -58,7 +58,7 @@ std::vector<std::string> in_folder(const std::string& folder) {
 
 /// One path a line.
 std::vector<std::string> in_list(const std::string& list) {
-  constexpr std::size_t most = std::size_t{1} << 20;
+  constexpr std::size_t most = std::size_t{1} << 20, longest = 4096;
   InputFile file(list);
   const std::string text = file.read_rest(most_document_bytes);
   std::vector<std::string> all;
@@ -68,6 +68,9 @@ std::vector<std::string> in_list(const std::string& list) {
     if (line.ends_with('\r')) line.remove_suffix(1);
     if (line.find('\0') != line.npos) throw bad_input(list, "a path", std::string(line), "text");
     if (line.empty()) continue;
+    if (line.size() >= longest)
+      throw bad_input(list, "a path", counted(line.size(), "byte"),
+                      fmt::format("fewer than {}", longest));
     if (all.size() == most)
       throw bad_input(list, "lines", fmt::format("more than {} paths", most), "fewer");
     all.emplace_back(line);

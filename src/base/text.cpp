@@ -9,11 +9,13 @@
 namespace gonio {
 namespace {
 
-/// True for a character that turns the direction of the text after it, or ends its line: what follows would be read
-/// as what it is not.
+/// True for a character that turns the direction of the text after it, ends its line or cannot be seen: what is read is not what
+/// it is.  Or one that XML has not (U+FFFE, U+FFFF).
 constexpr bool misleads(char32_t c) {
   return c == 0x61c || c == 0x200e || c == 0x200f || (c >= 0x2028 && c <= 0x202e) ||
-         (c >= 0x2066 && c <= 0x2069) || c == 0xfeff;
+         (c >= 0x2066 && c <= 0x2069) || c == 0xfeff || c == 0xad || c == 0x200b ||
+         (c >= 0x2060 && c <= 0x2064) || c == 0xfffe || c == 0xffff ||
+         (c >= 0xe0000 && c <= 0xe007f);
 }
 
 /// Bytes of the character that s begins with; 0 for a control character, one that misleads or what is not UTF-8.

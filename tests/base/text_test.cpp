@@ -25,8 +25,9 @@ TEST(Printable, KeepsUtf8AndShowsAnyOtherByte) {
 
 TEST(Printable, ShowsWhatTurnsTextAroundOrEndsItsLine) {
   EXPECT_EQ(printable("\u202egpj.exe"), "\\xe2\\x80\\xaegpj.exe");
-  for (const char* c : {"\u061c", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u202d",
-                        "\u2066", "\u2069", "\ufeff"})
+  for (const char* c :
+       {"\u061c", "\u200e", "\u200f", "\u2028", "\u2029", "\u202a", "\u202d", "\u2066", "\u2069",
+        "\ufeff", "\u00ad", "\u200b", "\ufffe", "\uffff", "\U000e0041"})
     EXPECT_TRUE(printable(c).starts_with('\\')) << printable(c);
   for (const char* c :
        {"\u061b", "\u200d", "\u2010", "\u2027", "\u202f", "\u2065", "\u206a", "\ufefe"})

@@ -190,6 +190,12 @@ TEST(Batch, RefusesAListOfMorePathsThanItMayHold) {
              "lines: found more than 1048576 paths");
 }
 
+TEST(Batch, RefusesAPathOfAListThatNoFileHas) {
+  const test::Folder f;
+  EXPECT_HAS(test::refusal([&] { tables_of({"@" + f.write("list", std::string(4096, 'a'))}); }),
+             "a path: found 4096 bytes, expected fewer than 4096");
+}
+
 TEST(Batch, TellsItsProgressAndKeepsWhatItHas) {
   const test::Folder f;
   std::string csv = "theta_i,phi_i,theta_o,phi_o,f\n";

@@ -211,10 +211,10 @@ TEST(RglFile, NamesTheFieldThatIsWrong) {
   EXPECT_COMPLAINT(folder.write("t", third.bytes()), "field phi_i: found 0.3183 of a turn");
   third.phi_i.back() += 0.9F;  // nearer to a half than to a third
   EXPECT_COMPLAINT(folder.write("t", third.bytes()), "field phi_i: found 0.4615 of a turn");
-  RglFile many = file;
+  RglFile bands = file;
   for (std::size_t i = 0; i <= most_channels; ++i)
-    many.wavelengths.push_back(static_cast<float>(i));
-  EXPECT_COMPLAINT(folder.write("t", many.bytes()),
+    bands.wavelengths.push_back(static_cast<float>(i));
+  EXPECT_COMPLAINT(folder.write("t", bands.bytes()),
                    "field wavelengths: found 4097 channels, expected at most 4096");
   RglFile twice = file;
   twice.wavelengths = {500, 500};
