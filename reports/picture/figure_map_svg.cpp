@@ -135,10 +135,9 @@ class MapDrawing {
     };
     return fmt::format(
         R"(<svg class="plot" role="img" tabindex="0" aria-label="{}" data-x="{}" data-y="{}" data-xs="{}" data-ys="{}"{}{} data-scale="{} {:.6g} {:.6g}{}" data-cells="{}" style="--left:{}px;--below:{}px;--least:{}px;height:{}px">{}{}</svg>)",
-        markup_text(
-            m_.x.label.empty()
-                ? m_.title + "."
-                : fmt::format("{}: {} by {} and {}.", m_.title, m_.value, m_.x.label, m_.y.label)),
+        markup_text(m_.x.label.empty() ? m_.title + "."
+                                       : fmt::format("{}: {} by {} and {}.", m_.title, m_.value,
+                                                     m_.x.label, m_.y.label)),
         axis(x_), axis(y_), edges(x_edges_, [&](double v) { return x_at(v); }),
         edges(y_edges_, [&](double v) { return y_at(v); }), named("data-nx", m_.x),
         named("data-ny", m_.y), name_of(m_.scale), colours_.low, colours_.high,
