@@ -622,17 +622,18 @@ class Builder {
     auto all = settings;
     all.push_back(std::move(brightest));
     for (const auto& p : all)
-      if (const auto has = has_cosine(p)) {
-        cosine = *has;
+      if (const Cosine has = has_cosine(p); has != Cosine::unknown) {
+        cosine = has == Cosine::there;
         break;
       }
     const bool pi = has_pi(settings[0], cosine);
     f_.includes = cosine && pi ? "cosine,pi" : cosine ? "cosine" : pi ? "pi" : "nothing";
   }
-  /// Guesses whether a value is f NoL by reciprocity: f(l, v) = f(v, l) with the cosine taken out, not with it in; none where the value
+  enum class Cosine { unknown, missing, there };
+  /// Guesses whether a value is f NoL by reciprocity: f(l, v) = f(v, l) with the cosine taken out, not with it in; unknown where the value
   /// is 0, as with a default of 0, or reciprocal neither way.  Shaders add 1e-5 to a cosine so that it is never 0: that is no cosine of
   /// their own.
-  std::optional<bool> has_cosine(const std::vector<double>& p) const {
+  Cosine has_cosine(const std::vector<double>& p) const {
     int plain_differs = 0, without_differs = 0, seen = 0;
     double plain_off = 0, without_off = 0;
     const auto off = [](double a, double b) {
@@ -649,11 +650,11 @@ class Builder {
       plain_off = std::fmax(plain_off, off(a, b));
       without_off = std::fmax(without_off, off(a / x[0], b / y[0]));
     }
-    if (seen == 0) return {};
-    if (plain_differs <= 3) return false;
-    if (without_differs == 0 || without_off < 1e-3 * plain_off) return true;
+    if (seen == 0) return Cosine::unknown;
+    if (plain_differs <= 3) return Cosine::missing;
+    if (without_differs == 0 || without_off < 1e-3 * plain_off) return Cosine::there;
     constexpr double much = 1e-2;  // as of a slip, not of a guard
-    return plain_off > much && without_off > much ? std::optional<bool>() : false;
+    return plain_off > much && without_off > much ? Cosine::unknown : Cosine::missing;
   }
   /// Rough albedo of the first channel where θ_v = 0.5, over rings about the mirror direction that are narrow near it: a lobe of
   /// any width is seen.
