@@ -8,6 +8,7 @@
 #include "base/letters.h"
 #include "brdf/catalogue/foreign_terms.h"
 #include "reports/own/in_half.h"
+#include "reports/own/parameters.h"
 #include "reports/own/parts.h"
 #include "reports/own/slip_forms.h"
 
@@ -27,6 +28,13 @@ void add(std::vector<std::string>& all, const std::vector<std::string>& more) {
     if (std::ranges::find(all, s) == all.end()) all.push_back(s);
 }
 
+/// A smooth highlight that returns all light has the factor that it should have, whatever a form of ours returns, as those of mobile
+/// shaders do.
+bool is_whole(const std::optional<FoundAt>& highlight) {
+  constexpr double most_off = 0.05;
+  return highlight && std::abs(highlight->value - 1) < most_off;
+}
+
 void audit_whole(FunctionAudit& a, const std::string& token, std::size_t term) {
   const auto parameters = known_parameters(term);
   const auto& f = *a.of.function;
@@ -35,12 +43,16 @@ void audit_whole(FunctionAudit& a, const std::string& token, std::size_t term) {
   if (a.model) {
     const auto& width = parameters[a.model->width];
     a.width_of_model = width.name;
-    add(a.slips, likely_slips(*a.model, width, guessed_pi));
     add(a.to_check, to_check(*a.model, width));
   }
   const OwnAlbedo albedo(token, parameters, f.programs.size(), f.anisotropic);
   const auto parts = audit_parts(term, albedo, a.model, guessed_pi);
   a.highlight = parts.highlight;
+  if (a.model) {
+    auto of_model = *a.model;
+    if (is_whole(a.highlight)) of_model.factor = 1;
+    add(a.slips, likely_slips(of_model, parameters[a.model->width], guessed_pi));
+  }
   add(a.slips, parts.slips);
   add(a.to_check, parts.to_check);
   a.energy = energy_of(albedo);
@@ -81,9 +93,19 @@ FunctionAudit audit_function(const FileFunction& of) {
     if (!a.nearest || !is_same(*a.nearest))
       if (const auto slip = slip_form(term); !slip.empty()) a.slips.push_back(slip);
   }
-  for (const auto& p : f.parameters)
-    if (!p.bounded)
-      a.not_looked_at.push_back(fmt::format("{} beyond 0.05 to 1: no bounds were given", p.name));
+  if (role == Role::diffuse && !a.model && !(a.nearest && is_same(*a.nearest))) {
+    a.of_the_kind = model_of_the_kind(token, term);
+    a.nearest.reset();
+  }
+  const auto known = known_parameters(term);
+  for (const auto& p : f.parameters) {
+    const auto role_of = std::ranges::find_if(
+        known, [&](const Parameter& q) { return stem_of(q.name) == stem_of(p.name); });
+    if (p.bounded || role_of == known.end()) continue;
+    const Range range{low_of(*role_of), high_of(*role_of)};
+    a.not_looked_at.push_back(fmt::format("{} beyond {:.4g} to {:.4g}: no bounds were given",
+                                          p.name, range.low, range.high));
+  }
   return a;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "answer/file_functions.h"
+#include "reports/own/cost.h"
 #include "reports/own/energy.h"
 #include "reports/own/laws.h"
 #include "reports/own/nearest.h"
@@ -25,6 +26,8 @@ struct FunctionAudit {
   std::optional<NearestModel> model{};  ///< of a whole model
   std::string width_of_model{};         ///< the parameter's name
   std::string no_model{};               ///< why none of ours is beside it
+  std::optional<OfTheKind>
+      of_the_kind{};  ///< ours to compare the cost with, where it is no form of ours
   std::vector<std::string> slips{};
   std::vector<std::string> to_check{};       ///< right or wrong by what the caller passes
   std::vector<std::string> not_looked_at{};  ///< what could not be, and why

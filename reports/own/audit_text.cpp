@@ -3,8 +3,6 @@
 #include <numbers>
 
 #include "base/json/describe.h"
-#include "brdf/cost/model_operations.h"
-#include "brdf/in_number/number.h"
 #include "brdf/model/own_files.h"
 #include "reports/finding/words.h"
 #include "reports/own/audit_file.h"
@@ -100,7 +98,7 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
                       {"power", a.nearest->power},
                       {"factor", a.nearest->factor},
                       {"difference", a.nearest->difference},
-                      {"operations", operations_of(a.nearest->term).sample.total()}};
+                      {"operations", operations_in(a.nearest->term, channels_of(*a.of.function))}};
     j["model"] = Json();
     if (a.model)
       j["model"] = {{"spec", a.model->spec},
@@ -110,6 +108,9 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
                     {"factor", a.model->factor},
                     {"operations", a.model->operations},
                     {"lacks_diffuse", a.model->lacks_diffuse}};
+    j["of_the_kind"] = Json();
+    if (const auto& k = a.of_the_kind)
+      j["of_the_kind"] = {{"spec", k->spec}, {"operations", k->operations}};
     j["no_model"] = a.no_model.empty() ? Json() : Json(a.no_model);
     j["slips"] = a.slips;
     j["to_check"] = a.to_check;
@@ -160,7 +161,7 @@ std::string text_of(const FunctionAudit& a) {
   if (a.nearest) {
     line(is_same(*a.nearest) ? "it is" : "nearest", nearest_text(a));
     line("beside ours", fmt::format("{} operations, ours {}", a.of.operations.total(),
-                                    operations_of(a.nearest->term).sample.total()));
+                                    operations_in(a.nearest->term, channels_of(f))));
   }
   if (const auto& m = a.model) {
     line("D and V",
@@ -173,9 +174,12 @@ std::string text_of(const FunctionAudit& a) {
                      m->other_fresnel ? "; its Fresnel term is that of none of ours" : ""));
     line("beside ours",
          fmt::format("{} operations, ours {}{}", a.of.operations.total(), m->operations,
-                     m->lacks_diffuse ? " without a diffuse part" : ""));
+                     m->lacks_diffuse ? " with Lambert in place of its diffuse part" : ""));
   }
-  if (!a.no_model.empty()) line("beside ours", "none: " + a.no_model);
+  if (const auto& k = a.of_the_kind)
+    line("beside ours", fmt::format("{} operations, {} has {}: ours of its kind, not the same form",
+                                    a.of.operations.total(), k->spec, k->operations));
+  if (!a.no_model.empty()) line("none of ours", a.no_model);
   for (const auto& slip : a.slips) line("likely slip", slip);
   for (const auto& c : a.to_check) line("check", c);
   for (const auto& n : f.notes) line("note", fmt::format("line {}: {}", n.line, n.text));

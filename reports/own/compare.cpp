@@ -9,11 +9,11 @@
 #include "base/json/describe.h"
 #include "base/letters.h"
 #include "brdf/catalogue/foreign_terms.h"
-#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/own_files.h"
 #include "reports/measure/samples.h"
+#include "reports/own/cost.h"
 #include "reports/own/pairing.h"
 #include "reports/own/parameters.h"
 
@@ -169,8 +169,11 @@ TermComparison compare_terms(const std::string& a, const std::string& b, const D
         c, side_of_term(x, rows), side_of_term(y, rows), rows, domain,
         *role == Role::ndf ? [](double f, double g, double most) { return std::abs(f - g) / most; }
                            : [](double f, double g, double) { return std::abs(f - g); });
-    c.operations_a = operations_of(x).sample.total();
-    c.operations_b = operations_of(y).sample.total();
+    for (const auto term : {x, y})
+      if (const auto* f = foreign_term(term))
+        c.channels = std::max(c.channels, channels_of(*f->function));
+    c.operations_a = operations_in(x, c.channels);
+    c.operations_b = operations_in(y, c.channels);
     if (!best || c.largest < best->largest) {
       best = c;
       best->half_a = in_half(x, domain);
@@ -180,9 +183,12 @@ TermComparison compare_terms(const std::string& a, const std::string& b, const D
   return *best;
 }
 
-TermComparison compare_with_model(const std::string& own,
-                                  const std::string& spec,
-                                  const Domain& domain) {
+namespace {
+
+/// All but what half makes of them.
+TermComparison values_with_model(const std::string& own,
+                                 const std::string& spec,
+                                 const Domain& domain) {
   const std::size_t term = foreign_term_named(own);
   const auto& entry = catalogue()[term];
   if (entry.role() != Role::diffuse)
@@ -207,9 +213,25 @@ TermComparison compare_with_model(const std::string& own,
                   [&](const Values& p) { return values_in(Number::double_, term, p, rows); }};
   compare_sides(c, ours, theirs, rows, domain,
                 [](double f, double g, double) { return std::abs(f / g - 1); });
-  c.operations_a = operations_of(*foreign_term(term)->function, 3).total();
-  c.operations_b = operations_of(compose(spec, 3)).total();
-  c.half_a = in_half(term, domain);
+  c.channels = channels_of(*foreign_term(term)->function);
+  c.operations_a = operations_in(term, c.channels);
+  c.operations_b = operations_in(spec, c.channels);
+  return c;
+}
+
+}  // namespace
+
+double difference_from_model(const std::string& own,
+                             const std::string& spec,
+                             const Domain& domain) {
+  return values_with_model(own, spec, domain).rms;
+}
+
+TermComparison compare_with_model(const std::string& own,
+                                  const std::string& spec,
+                                  const Domain& domain) {
+  auto c = values_with_model(own, spec, domain);
+  c.half_a = in_half(foreign_term_named(own), domain);
   c.half_b = in_half(stability::subjects_of(spec).back(), {});
   return c;
 }
@@ -237,7 +259,8 @@ std::string text_of(const TermComparison& c) {
   s += c.largest < 1e-12 ? fmt::format("  {:<14}none, in {}\n", "difference", c.measure)
                          : fmt::format("  {:<14}{:.4g} at most, RMS {:.3g}, in {}; at {}\n",
                                        "difference", c.largest, c.rms, c.measure, c.at);
-  s += fmt::format("  {:<14}{} and {} operations\n", "cost", c.operations_a, c.operations_b);
+  s += fmt::format("  {:<14}{} and {} operations{}\n", "cost", c.operations_a, c.operations_b,
+                   c.channels > 1 ? fmt::format(", in {} channels", c.channels) : "");
   s += fmt::format("  {:<14}{}\n  {:<14}{}\n", "in half", c.half_a, "", c.half_b);
   return s;
 }

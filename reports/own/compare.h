@@ -15,6 +15,7 @@ struct TermComparison {
   std::string pairs;          ///< which parameters stand for which
   double largest = 0, rms = 0;
   std::string measure, at;
+  std::size_t channels = 1;  ///< both sides' operations are of so many
   std::size_t operations_a = 0, operations_b = 0;
   std::string half_a, half_b;
 };
@@ -22,6 +23,8 @@ struct TermComparison {
 TermComparison compare_terms(const std::string& a, const std::string& b, const Domain&);
 /// A file's function that is a whole model beside a model, in the same way.
 TermComparison compare_with_model(const std::string& own, const std::string& spec, const Domain&);
+/// RMS of the difference over the model's own value, by the same pairs.
+double difference_from_model(const std::string& own, const std::string& spec, const Domain&);
 std::string to_json(const TermComparison&);
 std::string text_of(const TermComparison&);
 /// True of an id of a term, with its role, or a file's function.

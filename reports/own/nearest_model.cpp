@@ -7,12 +7,12 @@
 #include <numbers>
 
 #include "brdf/catalogue/foreign_terms.h"
-#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
 #include "brdf/model/spec.h"
 #include "geometry/direction.h"
 #include "reports/finding/words.h"
 #include "reports/measure/samples.h"
+#include "reports/own/cost.h"
 #include "reports/own/parameters.h"
 #include "reports/own/slip_forms.h"
 
@@ -243,10 +243,9 @@ class Search {
     if (const auto form = take_fresnel(n, over_form)) spec.lobes[0].fresnel = short_id(*form);
     if (take_diffuse(n)) spec.diffuse = "lambert";
     n.spec = to_text(spec);
-    const auto* f = foreign_term(term_);
-    const bool is_colour =
-        f->function->programs.size() == 3 || std::ranges::any_of(own_, &Parameter::per_channel);
-    n.operations = operations_of(compose(spec, is_colour ? 3 : 1)).total();
+    const auto channels = channels_of(*foreign_term(term_)->function);
+    n.operations = operations_in(n.spec, channels);
+    if (n.lacks_diffuse) n.operations = operations_in("lambert+" + n.spec, channels);
     return n;
   }
 
@@ -298,11 +297,17 @@ class Search {
   bool take_diffuse(NearestModel& n) const {
     const bool has_colour = !colours_.diffuse.empty();
     Values with, without;
+    const auto at = [&](Others others) {
+      auto p = with_diffuse(own_, colours_, 0, others);
+      p[width_] = widths_[0];
+      if (colours_.eta) p[*colours_.eta] = usual_of(own_[*colours_.eta]);  // it is the highlight's
+      return values_in(Number::double_, term_, p, rows_);
+    };
     if (has_colour) {
       const auto& p = own_[colours_.diffuse[0]];
       with = diffuse(high_of(p), others_), without = diffuse(low_of(p), others_);
     } else {
-      with = diffuse(0, Others::usual), without = diffuse(0, Others::low);
+      with = at(Others::usual), without = at(Others::low);
     }
     double least = 1e300, most = -1e300;
     for (std::size_t i = 0; i < rows_.size(); ++i) {
@@ -327,6 +332,25 @@ class Search {
   const Disguise* disguise_ = nullptr;
   ByWidth white_;
 };
+
+/// "no parameter is F0 by its name …", with the roles that the names of a metallic workflow suggest.
+std::string advice_of_colours(std::span<const Parameter> own) {
+  std::string colour, metallic;
+  for (const auto& p : own) {
+    const auto n = plain_name(stem_of(p.name));
+    const auto has = [&](const char* word) { return n.find(word) != n.npos; };
+    if (metallic.empty() && has("metal")) metallic = p.name;
+    if (colour.empty() && (has("base") || has("albedo") || has("diffuse")))
+      colour = stem_of(p.name);
+  }
+  if (!colour.empty() && !metallic.empty())
+    return fmt::format(
+        "no parameter is F0 by its name; --argument {}=basecolor {}=metallic says where it comes "
+        "from",
+        colour, metallic);
+  return "no parameter is F0 by its name, as f0, specularColor, or albedo beside metallic; "
+         "--argument NAME=f0 says which";
+}
 
 }  // namespace
 
@@ -367,13 +391,15 @@ std::optional<NearestModel> nearest_model(std::size_t term, std::string& why) {
             return n;
           }
       }
-  why = !named ? "no parameter is a width by its name, as alpha or roughness; --argument "
-                 "NAME=roughness says which"
-        : !has_f0
-            ? "no parameter is F0 by its name, as f0, specularColor, or albedo beside metallic; "
-              "--argument NAME=f0 says which"
-            : fmt::format("no D and V of ours make its highlight at any power of {}",
-                          own[*named].name);
+  if (!has_highlight(term)) return {};
+  why = has_f0 ? "" : advice_of_colours(own);
+  if (!named)
+    why += fmt::format(
+        "{}no parameter is a width by its name, as alpha or roughness; --argument NAME=roughness "
+        "says which",
+        why.empty() ? "" : "; ");
+  if (why.empty())
+    why = fmt::format("no D and V of ours make its highlight at any power of {}", own[*named].name);
   return {};
 }
 

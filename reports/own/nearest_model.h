@@ -17,11 +17,12 @@ struct NearestModel {
   std::string spec;
   std::size_t width = 0;  ///< parameter of the function
   PartColours colours;
-  std::string f0;            ///< the parameter that is F0, where its name does not say so
-  double power = 1;          ///< of D: alpha = width^power
-  double masking_power = 1;  ///< of V
-  double factor = 1;         ///< the function's highlight over the model's
-  std::size_t operations = 0;
+  std::string f0;              ///< the parameter that is F0, where its name does not say so
+  double power = 1;            ///< of D: alpha = width^power
+  double masking_power = 1;    ///< of V
+  double factor = 1;           ///< the function's highlight over the model's
+  std::size_t operations = 0;  ///< in the function's channels; with Lambert's where the function
+                               ///< has another diffuse part
   bool lacks_diffuse =
       false;  ///< the function has a diffuse part that is not Lambert's, which the model has not
   bool other_fresnel = false;  ///< F is that of none of ours

@@ -24,6 +24,9 @@ std::vector<Parameter> known_parameters(std::size_t term) {
 
 std::string plain_name(std::string_view name) {
   constexpr std::string_view prefixes = "umg";
+  for (const std::string_view of_struct : {"material_", "mat_"})
+    if (name.starts_with(of_struct) && name.size() > of_struct.size())
+      name.remove_prefix(of_struct.size());
   const auto is_upper = [](char c) { return c != lower_case(c); };
   if (name.size() > 2 && prefixes.find(name[0]) != prefixes.npos &&
       (name[1] == '_' || (is_upper(name[1]) && !is_upper(name[0]))))
@@ -64,7 +67,8 @@ bool is_colour(const Parameter& p) {
 }
 
 bool is_rough(const Parameter& p) {
-  return known_as(p).find("rough") != std::string::npos;
+  const auto n = known_as(p);  // alphaRoughness of glTF's sample renderer is alpha
+  return n.find("rough") != n.npos && !n.starts_with("alpha");
 }
 
 bool is_exponent(const Parameter& p) {
@@ -95,14 +99,28 @@ std::optional<std::size_t> width_of(std::span<const Parameter> parameters) {
   return {};
 }
 
+namespace {
+
+/// Low end, default and high end of a parameter without bounds, by what its name says.
+struct Natural {
+  double low, usual, high;
+};
+Natural natural_of(const Parameter& p) {
+  if (is_colour(p) || known_as(p).starts_with("metal")) return {0, 0.5, 1};
+  if (is_eta(p)) return {1.1, 1.5, 2.5};
+  return {0.05, 0.5, 1};
+}
+
+}  // namespace
+
 double low_of(const Parameter& p) {
-  return std::isnan(p.start) ? 0.05 : p.legal.low;
+  return std::isnan(p.start) ? natural_of(p).low : p.legal.low;
 }
 double usual_of(const Parameter& p) {
-  return std::isnan(p.start) ? 0.5 : p.start;
+  return std::isnan(p.start) ? natural_of(p).usual : p.start;
 }
 double high_of(const Parameter& p) {
-  return std::isnan(p.start) ? 1 : p.legal.high;
+  return std::isnan(p.start) ? natural_of(p).high : p.legal.high;
 }
 
 std::vector<double> values_between(const Parameter& p, std::size_t count) {

@@ -35,11 +35,12 @@ bool is_eta(const Parameter&);
 /// The parameter whose name says that it is a width: alpha, roughness, m …
 std::optional<std::size_t> width_of(std::span<const Parameter>);
 
-/// A parameter's low end, default and high end; of one without bounds 0.05, 0.5 and 1.
+/// A parameter's low end, default and high end; of one without bounds those of its role: 0 to 1 of colours and metals, 0.05 to 1 of
+/// widths, 1.1 to 2.5 of eta.
 double low_of(const Parameter&);
 double usual_of(const Parameter&);
 double high_of(const Parameter&);
-/// Values at which a function is looked at: within the parameter's bounds, or within [0.05, 1] where it has none.
+/// Values at which a function is looked at: within the parameter's bounds, or those of its role where it has none.
 std::vector<double> values_between(const Parameter&, std::size_t count);
 
 /// Maps from a file's width to the catalogue's alpha: a power; or √(2/(width + 2)) of an exponent, (1 − width)² or 1 − width of a gloss.

@@ -17,7 +17,6 @@ namespace {
 using auditing::Row;
 using auditing::Values;
 
-constexpr double pi = std::numbers::pi;
 constexpr double rounded = 0.02;  ///< by which the albedo of a smooth highlight is off
 
 /// A whole function whose width and colours are known.
@@ -82,9 +81,17 @@ class Parts {
     a_.highlight = FoundAt{at(narrowest_, others_), fmt::format("{} {:.4g}", w.name, narrowest_)};
     const bool is_whole = std::abs(a_.highlight->value - 1) < rounded;
     if (model_ && (model_->bite || model_->factor != 1)) return is_whole;  // named by its form
-    for (const double factor : {pi, 4.0, 4 * pi, 1 / pi})
+    for (const double factor : {std::numbers::pi, 4.0, 4 * std::numbers::pi, std::numbers::inv_pi})
       if (std::abs(a_.highlight->value / factor - 1) < rounded && (factor > 1 || guessed_pi_))
         a_.slips.push_back(highlight_text(factor, guessed_pi_));
+    if (const double end = wide_end(w); !is_whole && std::abs(at(end, others_) - 1) < rounded) {
+      a_.slips.push_back(fmt::format(
+          "{0} is used as a {1}: the highlight is smooth at {0} {2:.4g}, and wide at {3:.4g}; "
+          "expected 1 − {0} in its place",
+          w.name, narrows(power_) ? "roughness" : "smoothness", end, narrowest_));
+      a_.highlight = FoundAt{at(end, others_), fmt::format("{} {:.4g}", w.name, end)};
+      return false;
+    }
     if (const auto bite = bite_of(w, power_, [&](double v) { return at(v, others_); })) {
       const auto text = fmt::format(
           "its smooth highlight loses light: {:.2g} of it returns along the normal at "
@@ -94,6 +101,12 @@ class Parts {
       (bite->is_little ? a_.to_check : a_.slips).push_back(text);
     }
     return is_whole;
+  }
+
+  /// The end where the width's name promises the widest lobe, not quite 0.
+  double wide_end(const Parameter& w) const {
+    const double least = 1e-3 * (w.legal.high - w.legal.low);
+    return narrows(power_) ? std::max(w.legal.low, least) : w.legal.high;
   }
 
   /// A highlight that is whole at the default of an anisotropy is so at its ends, where D has the right norm.
@@ -128,8 +141,8 @@ class Parts {
     const double v =
         (at(high_of(colour)) - at(low_of(colour))) / (high_of(colour) - low_of(colour));
     constexpr double least = 0.75, most = 1.2;
-    if (v > least * pi && v < most * pi)
-      a_.slips.push_back("its diffuse part is " + factor_text(pi));
+    if (v > least * std::numbers::pi && v < most * std::numbers::pi)
+      a_.slips.push_back("its diffuse part is " + factor_text(std::numbers::pi));
   }
 
   /// Where one part is reciprocal only with the cosine taken out or put in, and the other as it is.

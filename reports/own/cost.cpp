@@ -1,0 +1,135 @@
+#include "reports/own/cost.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "brdf/catalogue/foreign_terms.h"
+#include "brdf/cost/model_operations.h"
+#include "brdf/in_number/number.h"
+#include "brdf/model/model.h"
+#include "geometry/direction.h"
+#include "reports/measure/samples.h"
+#include "reports/own/compare.h"
+#include "reports/own/parameters.h"
+
+namespace gonio {
+namespace {
+
+using auditing::Row;
+using auditing::Values;
+
+/// Light and view at 45° over several azimuths: a diffuse part is even there, a highlight is not.
+const std::vector<Row>& turned() {
+  static const std::vector<Row> rows = [] {
+    std::vector<Row> all;
+    for (const double phi : {0.0, 60.0, 120.0, 150.0, 180.0})
+      all.push_back(auditing::row(45 * degree, 0, 45 * degree, phi * degree));
+    return all;
+  }();
+  return rows;
+}
+
+/// Values of parameters with the widths at one end or at their defaults, and all colours dark but for one.
+std::vector<Values> one_colour_each(std::span<const Parameter> parameters) {
+  std::vector<std::size_t> bright;
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    if (is_colour(parameters[k])) bright.push_back(k);
+  if (bright.empty()) bright.push_back(parameters.size());
+  std::vector<Values> all;
+  for (const auto one : bright)
+    for (const auto end : {low_of, usual_of, high_of}) {
+      Values v;
+      for (std::size_t k = 0; k < parameters.size(); ++k) {
+        const auto& p = parameters[k];
+        v.push_back(!is_colour(p)                                                  ? end(p)
+                    : k == one || stem_of(p.name) == stem_of(parameters[one].name) ? high_of(p)
+                                                                                   : low_of(p));
+      }
+      all.push_back(std::move(v));
+    }
+  return all;
+}
+
+bool has_coat(std::span<const Parameter> parameters) {
+  return std::ranges::any_of(parameters, [](const Parameter& p) {
+    const auto n = plain_name(p.meaning);
+    return !is_colour(p) && n.find("coat") != n.npos && !is_rough(p);
+  });
+}
+
+/// True of what is left where the highlight is smallest: at the retroreflection, all colours bright.
+bool has_diffuse(std::size_t term, std::span<const Parameter> parameters) {
+  Values v;
+  const auto width = width_of(parameters);
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto& p = parameters[k];
+    const bool is_narrow_high = narrows(powers_of(p)[0]);
+    v.push_back(plain_name(p.meaning).find("metal") != std::string::npos ? low_of(p)
+                : is_colour(p)                                           ? high_of(p)
+                : k == width ? (is_narrow_high ? high_of(p) : low_of(p))
+                             : usual_of(p));
+  }
+  const auto f = values_in(Number::double_, term, v, turned());
+  constexpr double least = 0.03;  // of 1/π at white
+  return f[1] > least;
+}
+
+}  // namespace
+
+std::size_t channels_of(const foreign::Function& f) {
+  const bool is_colour =
+      f.programs.size() > 1 ||
+      std::ranges::any_of(f.parameters, &foreign::FunctionParameter::per_channel);
+  return is_colour ? 3 : 1;
+}
+
+std::size_t operations_in(std::size_t term, std::size_t channels) {
+  if (const auto* own = foreign_term(term)) return operations_of(*own->function, channels).total();
+  const Role role = catalogue()[term].role();
+  const bool is_of_channels = role == Role::fresnel || role == Role::diffuse;
+  return operations_of(term).sample.total() * (is_of_channels ? channels : 1);
+}
+
+std::size_t operations_in(const std::string& spec, std::size_t channels) {
+  return operations_of(compose(spec, channels)).total();
+}
+
+bool has_highlight(std::size_t term) {
+  constexpr double uneven = 2.5;  // Oren–Nayar's most is 1.5 at 45°
+  return std::ranges::any_of(one_colour_each(known_parameters(term)), [&](const Values& p) {
+    const auto f = values_in(Number::double_, term, p, turned());
+    double least = 1e300, most = 0;
+    for (const double x : f)
+      if (std::isfinite(x)) least = std::min(least, x), most = std::max(most, x);
+    return most > 1e-12 && most > uneven * least;
+  });
+}
+
+OfTheKind model_of_the_kind(const std::string& token, std::size_t term) {
+  const auto parameters = known_parameters(term);
+  const std::size_t channels = channels_of(*foreign_term(term)->function);
+  const auto of = [&](const std::string& spec) {
+    return OfTheKind{spec, operations_in(spec, channels)};
+  };
+  if (has_highlight(term)) {
+    std::string spec = has_diffuse(term, parameters) ? "lambert+" : "";
+    spec += "ggx/smith_ggx.correlated/schlick";
+    if (has_coat(parameters)) spec += "+coat:ggx/smith_ggx.correlated/schlick";
+    return of(spec);
+  }
+  Domain domain;
+  for (const auto& p : parameters)
+    if (std::isnan(p.start)) domain.emplace_back(p.name, Range{low_of(p), high_of(p)});
+  std::string nearest;
+  double least = std::numeric_limits<double>::infinity();
+  for (const std::string spec : {"lambert", "oren_nayar", "oren_nayar.fujii", "eon", "disney"}) {
+    const double apart = difference_from_model(token, spec, domain);
+    if (apart < least * (1 - 1e-9)) least = apart, nearest = spec;
+  }
+  return of(nearest.empty() ? "lambert" : nearest);
+}
+
+}  // namespace gonio
