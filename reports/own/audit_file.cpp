@@ -94,7 +94,7 @@ FunctionAudit audit_function(const FileFunction& of) {
       if (const auto slip = slip_form(term); !slip.empty()) a.slips.push_back(slip);
   }
   if (role == Role::diffuse && !a.model && !(a.nearest && is_same(*a.nearest))) {
-    a.of_the_kind = model_of_the_kind(token, term);
+    a.of_the_kind = model_of_the_kind(term);
     a.nearest.reset();
   }
   const auto known = known_parameters(term);

@@ -41,10 +41,13 @@ void energy_lines(const FunctionAudit& a, const auto& line) {
     if (a.of.function->unclear)
       line("", fmt::format("albedo {:.4g} there if the value includes π",
                            e.albedo.value / std::numbers::pi));
-    if (e.part && !gains(*e.part))
-      line("", fmt::format("each part by itself gains none: one colour at its upper bound adds at "
-                           "most {:.4g}",
-                           e.part->value));
+    if (const double highlight = e.without_diffuse.value_or(0),
+        diffuse = e.albedo.value - highlight;
+        highlight > rounded && diffuse > rounded && std::max(highlight, diffuse) < 1 + rounded)
+      line("", fmt::format("only the sum exceeds 1: the highlight returns {:.3g} and the diffuse "
+                           "part {:.3g}; multiply the diffuse part by 1 − the highlight's albedo, "
+                           "since 1 − F(VoH) takes too little",
+                           highlight, diffuse));
   }
   line("repeat it", e.albedo.repeat);
   if (e.usual) line("", fmt::format("albedo {:.4g} at {}", e.usual->value, e.usual->at));
@@ -52,8 +55,9 @@ void energy_lines(const FunctionAudit& a, const auto& line) {
     line("", fmt::format("the highlight with F0 = 1 returns {:.3g} along the normal at {}, "
                          "expected 1 where it is smooth",
                          h->value, h->at));
-  line("loss", fmt::format("of colours at their upper bounds no less than {:.4g}, at {}",
-                           e.darkest.value, e.darkest.at));
+  line("returns",
+       fmt::format("at least {:.3g} % of the light with colours at their upper bounds, at {}",
+                   100 * e.darkest.value, e.darkest.at));
 }
 
 }  // namespace
@@ -84,6 +88,7 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
     j["albedo"] = e ? found(e->albedo) : Json();
     j["part"] = e ? found(e->part) : Json();
     j["usual"] = e ? found(e->usual) : Json();
+    j["without_diffuse"] = e && e->without_diffuse ? Json(*e->without_diffuse) : Json();
     j["darkest"] = e ? found(e->darkest) : Json();
     j["highlight"] = found(a.highlight);
     j["lowest"] = found(a.laws.lowest);

@@ -183,12 +183,17 @@ TermComparison compare_terms(const std::string& a, const std::string& b, const D
   return *best;
 }
 
-namespace {
+double difference_between(std::size_t own, std::size_t other, const Domain& domain) {
+  TermComparison c;
+  const auto& rows = auditing::rows_of(catalogue()[own].role());
+  compare_sides(c, side_of_term(own, rows), side_of_term(other, rows), rows, domain,
+                [](double f, double g, double) { return std::abs(f - g); });
+  return c.rms;
+}
 
-/// All but what half makes of them.
-TermComparison values_with_model(const std::string& own,
-                                 const std::string& spec,
-                                 const Domain& domain) {
+TermComparison compare_with_model(const std::string& own,
+                                  const std::string& spec,
+                                  const Domain& domain) {
   const std::size_t term = foreign_term_named(own);
   const auto& entry = catalogue()[term];
   if (entry.role() != Role::diffuse)
@@ -216,22 +221,7 @@ TermComparison values_with_model(const std::string& own,
   c.channels = channels_of(*foreign_term(term)->function);
   c.operations_a = operations_in(term, c.channels);
   c.operations_b = operations_in(spec, c.channels);
-  return c;
-}
-
-}  // namespace
-
-double difference_from_model(const std::string& own,
-                             const std::string& spec,
-                             const Domain& domain) {
-  return values_with_model(own, spec, domain).rms;
-}
-
-TermComparison compare_with_model(const std::string& own,
-                                  const std::string& spec,
-                                  const Domain& domain) {
-  auto c = values_with_model(own, spec, domain);
-  c.half_a = in_half(foreign_term_named(own), domain);
+  c.half_a = in_half(term, domain);
   c.half_b = in_half(stability::subjects_of(spec).back(), {});
   return c;
 }

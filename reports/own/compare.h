@@ -23,8 +23,8 @@ struct TermComparison {
 TermComparison compare_terms(const std::string& a, const std::string& b, const Domain&);
 /// A file's function that is a whole model beside a model, in the same way.
 TermComparison compare_with_model(const std::string& own, const std::string& spec, const Domain&);
-/// RMS of the difference over the model's own value, by the same pairs.
-double difference_from_model(const std::string& own, const std::string& spec, const Domain&);
+/// RMS of the difference of two terms of one role, by the same pairs.
+double difference_between(std::size_t own_term, std::size_t other_term, const Domain&);
 std::string to_json(const TermComparison&);
 std::string text_of(const TermComparison&);
 /// True of an id of a term, with its role, or a file's function.

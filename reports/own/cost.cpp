@@ -13,6 +13,7 @@
 #include "geometry/direction.h"
 #include "reports/measure/samples.h"
 #include "reports/own/compare.h"
+#include "reports/own/pairing.h"
 #include "reports/own/parameters.h"
 
 namespace gonio {
@@ -60,21 +61,19 @@ bool has_coat(std::span<const Parameter> parameters) {
   });
 }
 
-/// True of what is left where the highlight is smallest: at the retroreflection, all colours bright.
+/// True where one of the colours makes more at 60° from the plane of the light than a narrow highlight leaves there.
 bool has_diffuse(std::size_t term, std::span<const Parameter> parameters) {
-  Values v;
   const auto width = width_of(parameters);
-  for (std::size_t k = 0; k < parameters.size(); ++k) {
-    const auto& p = parameters[k];
-    const bool is_narrow_high = narrows(powers_of(p)[0]);
-    v.push_back(plain_name(p.meaning).find("metal") != std::string::npos ? low_of(p)
-                : is_colour(p)                                           ? high_of(p)
-                : k == width ? (is_narrow_high ? high_of(p) : low_of(p))
-                             : usual_of(p));
-  }
-  const auto f = values_in(Number::double_, term, v, turned());
-  constexpr double least = 0.03;  // of 1/π at white
-  return f[1] > least;
+  return std::ranges::any_of(one_colour_each(parameters), [&](Values v) {
+    for (std::size_t k = 0; k < v.size(); ++k) {
+      const auto& p = parameters[k];
+      const bool is_narrow_high = narrows(powers_of(p)[0]);
+      if (is_metallic(p)) v[k] = low_of(p);
+      if (k == width) v[k] = is_narrow_high ? high_of(p) : low_of(p);
+    }
+    constexpr double least = 0.03;  // white has 1/π
+    return values_in(Number::double_, term, v, turned())[1] > least;
+  });
 }
 
 }  // namespace
@@ -108,7 +107,7 @@ bool has_highlight(std::size_t term) {
   });
 }
 
-OfTheKind model_of_the_kind(const std::string& token, std::size_t term) {
+OfTheKind model_of_the_kind(std::size_t term) {
   const auto parameters = known_parameters(term);
   const std::size_t channels = channels_of(*foreign_term(term)->function);
   const auto of = [&](const std::string& spec) {
@@ -117,19 +116,24 @@ OfTheKind model_of_the_kind(const std::string& token, std::size_t term) {
   if (has_highlight(term)) {
     std::string spec = has_diffuse(term, parameters) ? "lambert+" : "";
     spec += "ggx/smith_ggx.correlated/schlick";
-    if (has_coat(parameters)) spec += "+coat:ggx/smith_ggx.correlated/schlick";
+    if (has_coat(parameters)) spec += "+ggx/smith_ggx.correlated/schlick";
     return of(spec);
   }
   Domain domain;
   for (const auto& p : parameters)
     if (std::isnan(p.start)) domain.emplace_back(p.name, Range{low_of(p), high_of(p)});
-  std::string nearest;
-  double least = std::numeric_limits<double>::infinity();
-  for (const std::string spec : {"lambert", "oren_nayar", "oren_nayar.fujii", "eon", "disney"}) {
-    const double apart = difference_from_model(token, spec, domain);
-    if (apart < least * (1 - 1e-9)) least = apart, nearest = spec;
+  const std::size_t lambert = find_term("diffuse.lambert");
+  std::size_t nearest = lambert;
+  double least = difference_between(term, lambert, domain);
+  for (const auto id : {"diffuse.oren_nayar", "diffuse.oren_nayar.fujii", "diffuse.eon",
+                        "diffuse.disney", "diffuse.frostbite"}) {
+    const std::size_t form = find_term(id);
+    constexpr double much = 0.7;  // of Lambert's difference, which is the plainest
+    if (const double apart = difference_between(term, form, domain);
+        apart < least * (nearest == lambert ? much : 1))
+      least = apart, nearest = form;
   }
-  return of(nearest.empty() ? "lambert" : nearest);
+  return {std::string(catalogue()[nearest].id()), operations_in(nearest, channels)};
 }
 
 }  // namespace gonio

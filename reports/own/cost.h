@@ -18,11 +18,10 @@ std::size_t operations_in(const std::string& spec, std::size_t channels);
 
 /// A model of ours of the same kind as a function that is none of ours: a diffuse model, or a highlight with or without a diffuse part.
 struct OfTheKind {
-  std::string spec;
+  std::string spec;  ///< or the id of a diffuse term
   std::size_t operations = 0;
 };
-/// \param token  the function as it is named in a spec
-OfTheKind model_of_the_kind(const std::string& token, std::size_t foreign_term);
+OfTheKind model_of_the_kind(std::size_t foreign_term);
 /// True where turning the view around the normal changes the value as only a highlight does.
 bool has_highlight(std::size_t foreign_term);
 

@@ -84,6 +84,13 @@ FoundAt OwnAlbedo::found(const Place& p, bool smallest) const {
   return f;
 }
 
+double OwnAlbedo::without_diffuse(const Place& p) const {
+  auto values = p.values;
+  for (std::size_t k = 0; k < values.size(); ++k)
+    if (is_colour(parameters_[k]) && !is_f0(parameters_[k])) values[k] = low_of(parameters_[k]);
+  return at(values, std::span(&p.mu, 1), p.phi_deg, {1e-4})[0];
+}
+
 namespace {
 
 /// A parameter, or the three of a colour whose channels mix, by its place in [0, 1] between its bounds.
@@ -142,6 +149,8 @@ class Sought {
   }
 
   FoundAt largest(std::span<const Given> from) { return best(from, false); }
+  /// Where the last search ended.
+  const OwnAlbedo::Place& last() const { return last_; }
   FoundAt smallest(const Given& from) { return best(std::span(&from, 1), true); }
   /// What one colour adds to what there is without any; of F0, which is none without light, all of it.
   FoundAt largest_part() {
@@ -250,7 +259,8 @@ class Sought {
     all.resize(std::min(climbs, all.size()));
     for (auto& c : all) climb(c, smallest);
     const auto& most = *std::ranges::max_element(all, {}, &Candidate::score);
-    auto found = albedo_.found(place_of(most.parts), smallest);
+    last_ = place_of(most.parts);
+    auto found = albedo_.found(last_, smallest);
     if (subtracts_) found.value = most.score;
     return found;
   }
@@ -289,6 +299,7 @@ class Sought {
   static constexpr Goal rough_{1e-2, 20'000}, fine_{1e-3, 100'000};
   const OwnAlbedo& albedo_;
   std::vector<Axis> axes_;
+  OwnAlbedo::Place last_;
   bool subtracts_ = false;  ///< what there is without colours
   Axis view_{{}, steepest, 1, 1, true, false}, azimuth_{{}, 0, 180, 0, false, false};
 };
@@ -306,6 +317,7 @@ Energy energy_of(const OwnAlbedo& albedo) {
   Energy e;
   e.darkest = sought.smallest(sought.with_colours(true));
   e.albedo = sought.largest(all);
+  if (e.albedo.value > 1) e.without_diffuse = albedo.without_diffuse(sought.last());
   if (colours.size() > 1) e.part = sought.largest_part();
   if (std::ranges::none_of(parameters, [](const Parameter& p) { return std::isnan(p.start); })) {
     std::vector<double> usual;

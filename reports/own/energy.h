@@ -40,6 +40,8 @@ class OwnAlbedo {
                          bool smallest = false) const;
   double along_normal(const std::vector<double>& values) const;
   FoundAt found(const Place&, bool smallest) const;
+  /// The albedo at a place with all colours dark but for F0.
+  double without_diffuse(const Place&) const;
 
   std::span<const Parameter> parameters() const { return parameters_; }
   bool is_anisotropic() const { return anisotropic_; }
@@ -56,8 +58,10 @@ class OwnAlbedo {
 struct Energy {
   FoundAt albedo;  ///< the largest
   std::optional<FoundAt>
-      part;         ///< the largest that one colour adds at its upper bound; none of one colour
-  FoundAt darkest;  ///< the smallest, colours at their upper bounds
+      part;  ///< the largest that one colour adds at its upper bound; none of one colour
+  /// Where the largest exceeds 1: what is left of it there with all colours dark that are not F0: the highlight's.
+  std::optional<double> without_diffuse;
+  FoundAt darkest;               ///< the smallest, colours at their upper bounds
   std::optional<FoundAt> usual;  ///< with defaults, at NoV 0.5
 };
 Energy energy_of(const OwnAlbedo&);

@@ -39,6 +39,9 @@ std::vector<std::string> likely_slips(const NearestModel& n,
 std::vector<std::string> to_check(const NearestModel& n, const Parameter& width) {
   auto all = to_check(width, n.power);
   if (n.spec.find("/schlick_ggx.direct/") != n.spec.npos) all.emplace_back(k_of_direct_light);
+  if (n.guard > 0 && n.horizon.empty())
+    all.push_back(fmt::format(
+        "{:.4g} is added to 4 NoL NoV: the highlight is darker towards the horizon", n.guard));
   if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, width, n.power));
   return all;
 }

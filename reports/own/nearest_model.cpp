@@ -113,10 +113,15 @@ class Search {
       for (const auto others : {Others::low, Others::usual}) {
         others_ = others;
         disguise_ = &d;
-        white_.clear();
-        for (const double w : widths_) white_.push_back(highlight(1, w, rows_));
+        take_white(0);
         if (auto n = of_highlight()) return n;
       }
+    // Tutorials add so much to 4 NoL NoV.
+    for (const double guard : {1e-3, 1e-2}) {
+      others_ = Others::low, disguise_ = disguises.data();
+      take_white(guard);
+      if (auto n = of_highlight()) return n;
+    }
     return {};
   }
 
@@ -125,6 +130,25 @@ class Search {
     double power;
     std::vector<Form> shapes, maskings;
   };
+
+  /// The highlight at F0 = 1 by width, with what is added to 4 NoL NoV taken out, and the widths that a guard makes one.
+  void take_white(double guard) {
+    white_.clear(), is_guarded_.clear();
+    for (const double w : widths_) white_.push_back(highlight(1, w, rows_));
+    guard_ = guard;
+    for (auto& f : white_)
+      for (std::size_t i = 0; i < f.size() && guard > 0; ++i)
+        f[i] *= 1 + guard / (4 * rows_[i].nol * rows_[i].nov);
+    constexpr double same = 1e-9;
+    for (std::size_t k = 0; k < white_.size(); ++k) {
+      const auto other = highlight(1, widths_[k] * (1 + 1e-3), rows_);
+      const auto raw = highlight(1, widths_[k], rows_);
+      bool is_one = true;
+      for (std::size_t i = 0; i < raw.size(); ++i)
+        is_one = is_one && std::abs(raw[i] - other[i]) <= same * std::abs(raw[i]);
+      is_guarded_.push_back(is_one);
+    }
+  }
 
   Values highlight(double f0, double width, std::span<const Row> rows) const {
     auto p = with_highlight(own_, colours_, f0, others_);
@@ -206,8 +230,13 @@ class Search {
     const double least = 1e-30 * std::abs(white_[0][peak]);
     std::size_t held_down = 0;
     const std::size_t widths = std::min(d.values.size(), v.values.size());
+    constexpr std::size_t enough = 2;
+    if (static_cast<std::size_t>(std::ranges::count(
+            is_guarded_.begin(), is_guarded_.begin() + static_cast<std::ptrdiff_t>(widths),
+            false)) < enough)
+      return 0;
     for (std::size_t k = 0; k < widths; ++k)
-      for (std::size_t i = 0; i < rows_.size(); ++i) {
+      for (std::size_t i = 0; i < rows_.size() && !is_guarded_[k]; ++i) {
         const double w = factor * wanted(k, i), off = white_[k][i] - w;
         if (std::abs(off) <= same_within * std::abs(w) + least) continue;
         if (k == 0 || !(off < 0)) return 0;
@@ -223,6 +252,7 @@ class Search {
     n.power = d_power, n.masking_power = v_power, n.factor = factor;
     n.disguise = disguise_->slip;
     n.half_vector = half_.slip;
+    n.guard = guard_;
     const auto over_form = [&](const Values& f, double width, std::span<const Row> rows) {
       const auto x = values_of(d.term, alpha_of(width, d_power), rows),
                  y = values_of(v.term, alpha_of(width, v_power), rows);
@@ -331,6 +361,8 @@ class Search {
   Others others_ = Others::low;
   const Disguise* disguise_ = nullptr;
   ByWidth white_;
+  std::vector<bool> is_guarded_;  ///< the value there does not depend on the width
+  double guard_ = 0;              ///< added to 4 NoL NoV
 };
 
 /// "no parameter is F0 by its name …", with the roles that the names of a metallic workflow suggest.

@@ -29,6 +29,7 @@ struct NearestModel {
   std::string disguise;        ///< what its highlight is multiplied with, a sentence
   std::string fresnel_slip;    ///< a sentence
   std::string half_vector;     ///< a sentence
+  double guard = 0;            ///< what is added to 4 NoL NoV
   std::optional<Bite> bite;
   std::string horizon;  ///< a guard that holds it down there, a sentence
 };

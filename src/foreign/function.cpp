@@ -290,6 +290,7 @@ class Builder {
              });
     });
     forget_unread_globals(m_.functions().at(id->second));
+    if (as_.value_or(Stands::fresnel) == Stands::fresnel && gives_fresnel()) take_as_voh();
     f_.stands = as_.value_or(stands());
     finish();
     return std::move(f_);
@@ -503,6 +504,34 @@ class Builder {
       last = v;
     }
     return true;
+  }
+
+  /// True of a value of one cosine, whatever its name, that is 1 at grazing angles and less along the normal: a Fresnel term.
+  bool gives_fresnel() const {
+    const bool l = reads_angle("nol"), v = reads_angle("nov");
+    if (l == v) return false;
+    for (std::size_t k = 0; k < angle_names.size(); ++k)
+      if (angle_names[k] != (l ? "nol" : "nov") && reads_angle(angle_names[k])) return false;
+    const auto& said = f_.name.reading.arguments;
+    if (std::ranges::any_of(f_.arguments, [&](const Argument& a) {
+          return a.stands_for != "parameter" && (a.stands_for.size() == 1 || said.contains(a.name));
+        }))
+      return false;
+    const auto at = [&](double c) {
+      const double theta = std::acos(c);
+      return value_of(f_, starts(), between(theta, 0, theta, 0))[0];
+    };
+    constexpr double grazing = 1e-6, same = 1e-3, middle = 0.5;
+    return std::abs(at(grazing) - 1) < same && at(1) < 1 - same && at(1) >= 0 &&
+           at(middle) < 1 + same;
+  }
+  /// Makes its one cosine VoH.
+  void take_as_voh() {
+    for (auto& program : f_.programs)
+      for (auto& i : program.inputs)
+        if (i.of_sample) i.index = angle("voh");
+    for (auto& a : f_.arguments)
+      if (a.stands_for == "nol" || a.stands_for == "nov") a.stands_for = "voh";
   }
 
   // ---- what a value includes
