@@ -77,9 +77,15 @@ FunctionAudit audit_function(const FileFunction& of) {
   if (role == Role::diffuse) audit_whole(a, token, term);
   // Light and view that graze from opposite sides leave no half vector: most shaders exclude it.
   constexpr Range cosines{0.05, 1};
-  a.half = role == Role::diffuse
-               ? "for NoL and NoV from 0.05: " + in_half(term, {{"nol", cosines}, {"nov", cosines}})
-               : in_half(term, {});
+  const auto known = known_parameters(term);
+  Domain domain;
+  for (const auto& p : known)
+    if (std::isnan(p.start)) domain.emplace_back(p.name, Range{low_of(p), high_of(p)});
+  if (role == Role::diffuse) {
+    domain.emplace_back("nol", cosines);
+    domain.emplace_back("nov", cosines);
+  }
+  a.half = (role == Role::diffuse ? "for NoL and NoV from 0.05: " : "") + in_half(term, domain);
   const bool is_looked_up = role != Role::ndf || a.laws.normalisation;
   if (!a.model && is_looked_up && (role != Role::diffuse || !f.reads_frame)) {
     constexpr double far_off = 0.5;  // no form resembles it
@@ -97,7 +103,6 @@ FunctionAudit audit_function(const FileFunction& of) {
     a.of_the_kind = model_of_the_kind(term);
     a.nearest.reset();
   }
-  const auto known = known_parameters(term);
   for (const auto& p : f.parameters) {
     const auto role_of = std::ranges::find_if(
         known, [&](const Parameter& q) { return stem_of(q.name) == stem_of(p.name); });

@@ -62,11 +62,11 @@ bool is_usual(double factor) {
 
 /// Of a distribution, the widths at which its peak is less than the form's.
 std::optional<Bite> bite_in(std::size_t term, const NearestForm& n, std::size_t width) {
-  const auto& own = catalogue()[term];
+  const auto own = known_parameters(term);
   static const Row peak = auditing::row(30 * degree, 0, 30 * degree, std::numbers::pi);
-  return bite_of(own.parameters[width], n.power, [&](double w) {
+  return bite_of(own[width], n.power, [&](double w) {
     Values p, q;
-    for (const auto& a : own.parameters) p.push_back(usual_of(a));
+    for (const auto& a : own) p.push_back(usual_of(a));
     p[width] = w;
     for (const auto& a : catalogue()[n.term].parameters)
       q.push_back(a.name == "alpha" ? alpha_of(w, n.power) : a.start);
@@ -79,17 +79,18 @@ std::optional<Bite> bite_in(std::size_t term, const NearestForm& n, std::size_t 
 /// Compares the file's function with one form, alpha being one power of its width.
 NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing, double power) {
   const auto &own = catalogue()[term], &other = catalogue()[form];
+  const auto known = known_parameters(term);
   const auto& rows = auditing::rows_of(own.role());
   NearestForm n;
   n.term = form;
-  if (pairing.width) n.width = known_parameters(term)[*pairing.width];
+  if (pairing.width) n.width = known[*pairing.width];
   n.power = power;
   std::vector<Values> f, g;
   constexpr std::size_t places = 5;
   for (std::size_t k = 0; k < places; ++k) {
     Values p, q;
     // Of two widths, two values.
-    for (const auto& a : own.parameters)
+    for (const auto& a : known)
       p.push_back(values_between(a, places)[(k + (own.anisotropic ? 2 * p.size() : 0)) % places]);
     bool is_legal = true;
     for (std::size_t j = 0; j < other.parameters.size(); ++j) {

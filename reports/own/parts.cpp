@@ -84,12 +84,12 @@ class Parts {
     for (const double factor : {std::numbers::pi, 4.0, 4 * std::numbers::pi, std::numbers::inv_pi})
       if (std::abs(a_.highlight->value / factor - 1) < rounded && (factor > 1 || guessed_pi_))
         a_.slips.push_back(highlight_text(factor, guessed_pi_));
-    if (const double end = wide_end(w); !is_whole && std::abs(at(end, others_) - 1) < rounded) {
+    if (is_inverted(w, [&](double v) { return at(v, others_); })) {
       a_.slips.push_back(fmt::format(
-          "{0} is used as a {1}: the highlight is smooth at {0} {2:.4g}, and wide at {3:.4g}; "
-          "expected 1 − {0} in its place",
-          w.name, narrows(power_) ? "roughness" : "smoothness", end, narrowest_));
-      a_.highlight = FoundAt{at(end, others_), fmt::format("{} {:.4g}", w.name, end)};
+          "{0} is used as a {1}: the highlight widens towards {0} {2:.4g}; expected 1 − {0} in its "
+          "place",
+          w.name, narrows(power_) ? "roughness" : "smoothness", narrowest_));
+      a_.highlight.reset();
       return false;
     }
     if (const auto bite = bite_of(w, power_, [&](double v) { return at(v, others_); })) {
@@ -103,10 +103,15 @@ class Parts {
     return is_whole;
   }
 
-  /// The end where the width's name promises the widest lobe, not quite 0.
-  double wide_end(const Parameter& w) const {
-    const double least = 1e-3 * (w.legal.high - w.legal.low);
-    return narrows(power_) ? std::max(w.legal.low, least) : w.legal.high;
+  /// True where the highlight narrows towards the end that its name promises to be wide.  A guard cuts only the narrowest peaks.
+  bool is_inverted(const Parameter& w, const auto& at) const {
+    if (power_ == of_exponent) return false;
+    const double wide = narrows(power_) ? w.legal.low : w.legal.high;
+    const auto from_wide = [&](double part) { return at(wide + part * (narrowest_ - wide)); };
+    constexpr double near = 0.25, far = 0.6, narrow = 0.93, much = 0.05, wider = 0.75;
+    if (!(at(narrowest_) < wider)) return false;
+    const double near_wide = from_wide(near);
+    return near_wide > narrow && near_wide < 1 + much && from_wide(far) < near_wide - much;
   }
 
   /// A highlight that is whole at the default of an anisotropy is so at its ends, where D has the right norm.

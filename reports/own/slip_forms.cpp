@@ -81,7 +81,7 @@ constexpr std::array<SlipForm, 1> of_masking{{
 
 std::string swapped_of_two_widths(std::size_t term) {
   const auto& rows = auditing::rows_of(Role::masking);
-  const auto& parameters = catalogue()[term].parameters;
+  const auto parameters = known_parameters(term);
   const Values p{usual_of(parameters[0]), 0.7 * high_of(parameters[1])};
   const auto v = values_in(Number::double_, term, p, rows);
   for (std::size_t i = 0; i < rows.size(); ++i) {
@@ -119,13 +119,14 @@ std::string slip_form(std::size_t term) {
   const auto& own = catalogue()[term];
   const auto& rows = auditing::rows_of(own.role());
   if (own.role() == Role::fresnel) {
-    const auto colours = part_colours(known_parameters(term));
+    const auto known = known_parameters(term);
+    const auto colours = part_colours(known);
     const bool has_f0 = colours && !colours->f0.empty();
     if (!has_f0 && own.parameters.size() != 1) return "";
     const std::size_t k = has_f0 ? colours->f0[0] : 0;
-    const auto& f0 = own.parameters[k];
+    const auto& f0 = known[k];
     Values p;
-    for (const auto& q : own.parameters) p.push_back(usual_of(q));
+    for (const auto& q : known) p.push_back(usual_of(q));
     const double at = low_of(f0) + 0.1 * (high_of(f0) - low_of(f0));
     p[k] = at;
     return fresnel_slip(at, rows, values_in(Number::double_, term, p, rows), false);
@@ -147,13 +148,13 @@ std::string slip_form(std::size_t term) {
   std::span<const SlipForm> forms = of_masking;
   if (own.role() == Role::ndf) forms = of_distribution;
   constexpr std::size_t places = 4;
-  const auto widths = values_between(own.parameters[*width], places);
+  const auto widths = values_between(known[*width], places);
   for (const double power : powers_of(known[*width]))
     for (const auto& s : forms) {
       bool is = true;
       for (std::size_t k = 0; is && k < places; ++k) {
         Values p;
-        for (const auto& q : own.parameters) p.push_back(usual_of(q));
+        for (const auto& q : known) p.push_back(usual_of(q));
         p[*width] = widths[k];
         const auto v = values_in(Number::double_, term, p, rows);
         for (std::size_t i = 0; is && i < rows.size(); ++i) {
