@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <numbers>
 
 #include "base/error.h"
 #include "base/letters.h"
 #include "brdf/catalogue/foreign_terms.h"
+#include "integrate/albedo/normalisation.h"
 #include "reports/own/in_half.h"
 #include "reports/own/parameters.h"
 #include "reports/own/parts.h"
@@ -58,6 +60,19 @@ void audit_whole(FunctionAudit& a, const std::string& token, std::size_t term) {
   a.energy = energy_of(albedo);
 }
 
+/// Names the factor that a distribution of no form of ours lacks, where it is the same at two widths; otherwise "".
+std::string slip_of_norm(std::size_t term, double norm) {
+  constexpr double pi = std::numbers::pi, same = 2e-3;
+  std::vector<double> usual;
+  for (const auto& p : known_parameters(term)) usual.push_back(usual_of(p));
+  const double other = normalisation(term, usual).value;
+  for (const auto& [factor, lacks] :
+       {std::pair{pi, "1/π"}, {2 * pi, "1/(2π)"}, {4 * pi, "1/(4π)"}, {2.0, "½"}})
+    if (std::abs(norm / factor - 1) < same && std::abs(other / factor - 1) < same)
+      return fmt::format("its norm ∫ D NoH dω is {:.4g}, expected 1: {} is missing", norm, lacks);
+  return "";
+}
+
 FunctionAudit audit_function(const FileFunction& of) {
   FunctionAudit a{of};
   const auto& f = *of.function;
@@ -98,6 +113,9 @@ FunctionAudit audit_function(const FileFunction& of) {
     }
     if (!a.nearest || !is_same(*a.nearest))
       if (const auto slip = slip_form(term); !slip.empty()) a.slips.push_back(slip);
+    if (role == Role::ndf && a.slips.empty() && (!a.nearest || !is_same(*a.nearest)))
+      if (const auto slip = slip_of_norm(term, a.laws.normalisation->value); !slip.empty())
+        a.slips.push_back(slip);
   }
   if (role == Role::diffuse && !a.model && !(a.nearest && is_same(*a.nearest))) {
     a.of_the_kind = model_of_the_kind(term);

@@ -151,8 +151,9 @@ std::string text_of(const FunctionAudit& a) {
                                    : f.guessed ? " (guessed; --includes says it)"
                                                : ""));
   if (const auto& n = a.laws.normalisation)
-    line("∫ D cos θ", std::abs(n->value - 1) < 1e-4 ? "1: normalised"
-                                                    : fmt::format("{:.5g} at {}", n->value, n->at));
+    line("∫ D cos θ", std::abs(n->value - 1) < 1e-4
+                          ? "1: normalised"
+                          : fmt::format("{:.5g} at {}, expected 1", n->value, n->at));
   if (a.energy) energy_lines(a, line);
   if (const auto& r = a.laws.reciprocity)
     line("reciprocity",

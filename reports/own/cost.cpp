@@ -41,16 +41,20 @@ std::vector<Values> one_colour_each(std::span<const Parameter> parameters) {
   if (bright.empty()) bright.push_back(parameters.size());
   std::vector<Values> all;
   for (const auto one : bright)
-    for (const auto end : {low_of, usual_of, high_of}) {
-      Values v;
-      for (std::size_t k = 0; k < parameters.size(); ++k) {
-        const auto& p = parameters[k];
-        v.push_back(!is_colour(p)                                                  ? end(p)
-                    : k == one || stem_of(p.name) == stem_of(parameters[one].name) ? high_of(p)
-                                                                                   : low_of(p));
+    for (const auto end : {low_of, usual_of, high_of})
+      for (const auto metal : {low_of, high_of}) {
+        Values v;
+        for (std::size_t k = 0; k < parameters.size(); ++k) {
+          const auto& p = parameters[k];
+          const bool is_bright =
+              one < parameters.size() && stem_of(p.name) == stem_of(parameters[one].name);
+          v.push_back(is_metallic(p)  ? metal(p)
+                      : !is_colour(p) ? end(p)
+                      : is_bright     ? high_of(p)
+                                      : low_of(p));
+        }
+        all.push_back(std::move(v));
       }
-      all.push_back(std::move(v));
-    }
   return all;
 }
 

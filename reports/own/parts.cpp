@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "brdf/in_number/number.h"
+#include "geometry/direction.h"
 #include "reports/measure/samples.h"
 #include "reports/own/parameters.h"
 
@@ -44,6 +45,7 @@ class Parts {
     take_cosine();
     if (!take_highlight()) return;
     take_anisotropy();
+    take_metal();
     take_diffuse();
   }
 
@@ -131,6 +133,28 @@ class Parts {
         break;
       }
     }
+  }
+
+  /// Away from a narrow peak a metal reflects next to nothing: what is left there is a diffuse part.
+  void take_metal() {
+    if (!colours_->metallic || colours_->f0.empty()) return;
+    const auto& metallic = own_[*colours_->metallic];
+    const auto& colour = own_[colours_->f0[0]];
+    const double grey = (low_of(colour) + high_of(colour)) / 2;  // of white F leaves nothing
+    auto p = with_highlight(own_, *colours_, grey, others_);
+    p[*width_] = narrowest_;
+    const auto off_peak = auditing::row(45 * degree, 0, 45 * degree, 60 * degree);
+    const auto at = [&](double v) {
+      p[*colours_->metallic] = v;
+      return values_in(Number::double_, term_, p, std::span(&off_peak, 1))[0];
+    };
+    constexpr double least = 0.3;  // of a dielectric's
+    const double of_metal = at(high_of(metallic)), other = at(low_of(metallic));
+    if (other > 0 && of_metal > least * other)
+      a_.slips.push_back(
+          fmt::format("its diffuse part is left where {0} is {1:.4g}: expected (1 − {0}) times the "
+                      "diffuse part",
+                      metallic.name, high_of(metallic)));
   }
 
   /// What a diffuse part returns along the normal, its colour being 1, is not far from 1, whichever form it has.
