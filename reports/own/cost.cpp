@@ -33,23 +33,24 @@ const std::vector<Row>& turned() {
   return rows;
 }
 
-/// Values of parameters with the widths at one end or at their defaults, and all colours dark but for one.
+/// Values of parameters with all colours dark but for one; the width and all others are at their ends or at their defaults.
 std::vector<Values> one_colour_each(std::span<const Parameter> parameters) {
   std::vector<std::size_t> bright;
   for (std::size_t k = 0; k < parameters.size(); ++k)
     if (is_colour(parameters[k])) bright.push_back(k);
   if (bright.empty()) bright.push_back(parameters.size());
+  const auto width = width_of(parameters);
   std::vector<Values> all;
   for (const auto one : bright)
-    for (const auto end : {low_of, usual_of, high_of})
-      for (const auto metal : {low_of, high_of}) {
+    for (const auto of_width : {low_of, usual_of, high_of})
+      for (const auto of_others : {low_of, usual_of, high_of}) {
         Values v;
         for (std::size_t k = 0; k < parameters.size(); ++k) {
           const auto& p = parameters[k];
           const bool is_bright =
               one < parameters.size() && stem_of(p.name) == stem_of(parameters[one].name);
-          v.push_back(is_metallic(p)  ? metal(p)
-                      : !is_colour(p) ? end(p)
+          v.push_back(k == width      ? of_width(p)
+                      : !is_colour(p) ? of_others(p)
                       : is_bright     ? high_of(p)
                                       : low_of(p));
         }

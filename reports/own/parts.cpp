@@ -43,9 +43,10 @@ class Parts {
     take_coat();
     if (!colours_) return;
     take_cosine();
-    if (!take_highlight()) return;
+    const bool is_whole = take_highlight();
+    if (narrowest_ > 0) take_metal();
+    if (!is_whole) return;
     take_anisotropy();
-    take_metal();
     take_diffuse();
   }
 

@@ -506,7 +506,8 @@ class Builder {
     return true;
   }
 
-  /// True of a value of one cosine, whatever its name, that is 1 at grazing angles and less along the normal: a Fresnel term.
+  /// True of a value of one cosine that is 1 at grazing angles and less along the normal, where its name or the cosine's does not say
+  /// that it is of the surface: a Fresnel term.  An albedo of NoV may have such values, too.
   bool gives_fresnel() const {
     const bool l = reads_angle("nol"), v = reads_angle("nov");
     if (l == v) return false;
@@ -515,6 +516,12 @@ class Builder {
     const auto& said = f_.name.reading.arguments;
     if (std::ranges::any_of(f_.arguments, [&](const Argument& a) {
           return a.stands_for != "parameter" && (a.stands_for.size() == 1 || said.contains(a.name));
+        }))
+      return false;
+    const std::string n = plain(f_.name.function);
+    const bool is_fresnel = n.find("fresnel") != n.npos || n.find("schlick") != n.npos;
+    if (!is_fresnel && std::ranges::none_of(f_.arguments, [](const Argument& a) {
+          return a.stands_for != "parameter" && plain(a.name).starts_with("cos");
         }))
       return false;
     const auto at = [&](double c) {

@@ -351,7 +351,7 @@ TEST(AuditFile, WhyNoneOfOursIsBesideAModelIsSaid) {
   SKIP_WITHOUT_SHADERS;
   const auto none = replaced(replaced(tutorial("4.0"), "float roughness", "float q"),
                              "pow(roughness, 4.0", "pow(q, 3.0");
-  EXPECT_HAS(text_of(audited(none)), "beside ours     none: no parameter is a width by its name");
+  EXPECT_HAS(text_of(audited(none)), "none of ours    no parameter is a width by its name");
 }
 
 TEST(AuditFile, AGainAtTheBoundAndAtGrazingViewsIsSeen) {
@@ -374,7 +374,8 @@ TEST(AuditFile, ADiffusePartAndAHighlightGainNothingEachForItself) {
   EXPECT_LT(a.energy->part->value, 1.001) << a.energy->part->at;
   EXPECT_NEAR(a.energy->albedo.value, 2, 0.01);
   EXPECT_HAS(text_of(a),
-             "each part by itself gains none: one colour at its upper bound adds at most 1");
+             "only the sum exceeds 1: the highlight returns 1 and the diffuse part 1; multiply the "
+             "diffuse part");
 }
 
 TEST(AuditFile, AColourBlackIsNotAmongTheDarkestOfUpperBounds) {
@@ -518,6 +519,64 @@ TEST(AuditFile, AModelThatGainsLightIsToldWhere) {
   const auto b = audit_file(path + ":f{includes=nothing}")[0];
   EXPECT_NEAR(b.energy->albedo.value, 3.14159, 1e-3);
   EXPECT_NE(text_of(b).find("gains: albedo 3.14"), std::string::npos);
+}
+
+TEST(AuditFile, AFactorThatTheEnergyContradictsIsNoSlip) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& factor) {
+    return slips(audited(
+        "// gloss 0 1 0.7\n// f0 0 1 0.2\nvec3 mobile(vec3 N, vec3 V, vec3 L, vec3 f0, float "
+        "gloss) {\n"
+        "  vec3 H = normalize(V + L);\n  float NoH = dot(N, H), VoH = dot(V, H);\n"
+        "  float r = max(1.0 - gloss, 0.08), a = r * r, d = NoH * NoH * (a * a - 1.0) + 1.0;\n"
+        "  return a * a / (3.14159265358979 * d * d) * " +
+        factor + " / (VoH * VoH * (a + 0.5)) * (f0 + (1.0 - f0) * pow(1.0 - VoH, 5.0));\n}\n"));
+  };
+  EXPECT_EQ(of("0.125"), "") << "its smooth highlight returns all light";
+  EXPECT_HAS(of("0.5"), "its highlight is");
+}
+
+TEST(AuditFile, AHelperOfOneCosineWithValuesOfFresnelIsAFresnelTerm) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& cosine) {
+    return audited("float reflected(float " + cosine + ", float eta) {\n  float c = " + cosine +
+                   ", t = sqrt(max(0.0, 1.0 - (1.0 - c * c) / (eta * eta)));\n"
+                   "  float p = (eta * c - t) / (eta * c + t), s = (c - eta * t) / (c + eta * t);\n"
+                   "  return 0.5 * (p * p + s * s);\n}\n");
+  };
+  const auto a = of("cosThetaI");
+  EXPECT_FALSE(a.energy) << "it is no BRDF";
+  EXPECT_EQ(nearest(a), "fresnel.dielectric") << text_of(a);
+  EXPECT_HAS(a.not_looked_at[0], "eta beyond 1.1 to 2.5");
+}
+
+TEST(AuditFile, GuardsDoNotHideAModel) {
+  SKIP_WITHOUT_SHADERS;
+  const auto below = audited(replaced(tutorial("4.0"), "* NoL * NoV)", "* NoL * NoV + 0.001)"));
+  ASSERT_TRUE(below.model) << below.no_model;
+  EXPECT_EQ(slips(below), "");
+  EXPECT_HAS(text_of(below), "0.001 is added to 4 NoL NoV");
+  const auto least = audited(replaced(tutorial("4.0"), "pow(roughness, 4.0)",
+                                      "pow(max(0.001, pow(roughness, 4.0)), 2.0)"));
+  ASSERT_TRUE(least.model) << least.no_model;
+  EXPECT_HAS(slips(least), "roughness is squared once too often");
+}
+
+TEST(AuditFile, ADistributionOfNoFormOfOursIsNormalisedOrItsFactorIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& norm) {
+    return slips(
+        audited("// q 0.1 1 0.5\nfloat D(float NoH, float q) {\n  float s = sqrt(1.0 - NoH * "
+                "NoH);\n  return (2.0 + 1.0 / q) * pow(s, 1.0 / q) / " +
+                norm + ";\n}\n"));
+  };
+  EXPECT_EQ(of("(2.0 * 3.14159265358979)"), "");
+  EXPECT_HAS(of("1.0"), "1/(2π) is missing");
+}
+
+TEST(AuditFile, WhatIsReturnedAtLeastReadsAsNoLoss) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_HAS(text_of(audited(tutorial("4.0"))), "returns         at least 131 % of the light");
 }
 
 }  // namespace

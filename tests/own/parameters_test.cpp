@@ -44,5 +44,17 @@ TEST(OwnParameters, ARoleThatIsSaidIsTakenForTheName) {
   EXPECT_NEAR(known.highlight->value, 1, 0.01);
 }
 
+TEST(OwnParameters, MetalsAndColoursWithoutBoundsAreSoughtFromZeroToOne) {
+  SKIP_WITHOUT_SHADERS;
+  const auto text =
+      model_of("float roughness, float metalness, vec3 albedo",
+               "albedo * (1.0 - metalness) / PI + D_GGX(NoH, roughness) * V_Smith(NoL, "
+               "NoV, roughness) * mix(mix(vec3(0.04), albedo, metalness), vec3(1.0), p)");
+  const OwnModel own(text);
+  const auto e = energy_of(own.albedo);
+  EXPECT_HAS(e.albedo.at, "metalness 0,");
+  EXPECT_HAS(e.albedo.at, "roughness 0.05");
+}
+
 }  // namespace
 }  // namespace gonio

@@ -99,5 +99,34 @@ TEST(OwnParts, ANormThatIsWrongWhereALobeIsStretchedIsNamed) {
   EXPECT_EQ(of("pow(roughness, 4.0) * (1.0 - anisotropy * anisotropy)"), "");
 }
 
+TEST(OwnParts, ASmoothnessUsedAsARoughnessIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& name, const std::string& alpha) {
+    const std::string a = "max(" + alpha + ", 0.002)";
+    return OwnSlips(model_of("float " + name + " 0.05 1 0.5, vec3 f0 0 1 0.04",
+                             "D_GGX(NoH, " + a + ") * V_Smith(NoL, NoV, " + a +
+                                 ") * (f0 + (1.0 - f0) * p)"))
+        .slips;
+  };
+  EXPECT_HAS(of("smoothness", "smoothness * smoothness"), "smoothness is used as a roughness");
+  EXPECT_HAS(of("roughness", "(1.0 - roughness) * (1.0 - roughness)"),
+             "roughness is used as a smoothness");
+  EXPECT_EQ(of("smoothness", "(1.0 - smoothness) * (1.0 - smoothness)"), "");
+  EXPECT_EQ(of("roughness", "roughness * roughness"), "");
+}
+
+TEST(OwnParts, AMetalThatKeepsItsDiffusePartIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& kd) {
+    return OwnSlips(
+               model_of("float roughness 0.1 1 0.5, float metallic 0 1 0, vec3 baseColor 0 1 0.5",
+                        kd + "baseColor / PI + " + highlight +
+                            " * mix(mix(vec3(0.04), baseColor, metallic), vec3(1.0), p)"))
+        .slips;
+  };
+  EXPECT_HAS(of(""), "its diffuse part is left where metallic is 1");
+  EXPECT_EQ(of("(1.0 - metallic) * "), "");
+}
+
 }  // namespace
 }  // namespace gonio

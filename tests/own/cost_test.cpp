@@ -1,0 +1,83 @@
+// What a person's function costs beside ours: always said, and of like with like.
+#include "reports/own/cost.h"
+
+#include "own/own_shaders.h"
+#include "refusal.h"
+#include "reports/own/compare.h"
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+constexpr const char* oren_nayar =
+    "// albedo 0 1 0.6\n// sigma 0 1 0.3\nvec3 rough(vec3 N, vec3 L, vec3 V, vec3 albedo, float "
+    "sigma) {\n  float NoL = dot(N, L), NoV = dot(N, V), s2 = sigma * sigma;\n  float s = dot(L, "
+    "V) - NoL * NoV, t = s > 0.0 ? max(NoL, NoV) : 1.0;\n  return albedo / 3.14159265358979 * (1.0 "
+    "- 0.5 * s2 / (s2 + 0.33) + 0.45 * s2 / (s2 + 0.09) * s / t);\n}\n";
+
+TEST(OwnCost, ADiffuseFunctionStandsBesideTheNearestDiffuseTerm) {
+  SKIP_WITHOUT_SHADERS;
+  const auto& a = audited(oren_nayar);
+  ASSERT_TRUE(a.of_the_kind);
+  EXPECT_EQ(a.of_the_kind->spec, "diffuse.oren_nayar");
+  EXPECT_EQ(a.no_model, "") << "F0 is not missed where there is no highlight";
+  EXPECT_HAS(text_of(a),
+             fmt::format("{} operations, diffuse.oren_nayar has", a.of.operations.total()));
+}
+
+TEST(OwnCost, OneFunctionHasOneCountWhereverItIsPrinted) {
+  SKIP_WITHOUT_SHADERS;
+  const test::Folder folder;
+  const auto path = folder.write("one.glsl", oren_nayar);
+  const auto audit = audit_file(path)[0].of.operations.total();
+  const auto term = compare_terms(path, "diffuse.oren_nayar", {});
+  const auto model = compare_with_model(path, "oren_nayar", {});
+  EXPECT_EQ(term.operations_a, audit);
+  EXPECT_EQ(model.operations_a, audit);
+  EXPECT_EQ(term.operations_b, model.operations_b);
+  EXPECT_HAS(text_of(term), "operations, in 3 channels");
+}
+
+/// A sheen, a coat or a highlight that is none of ours.
+OfTheKind kind_of(const std::string& parameters, const std::string& value) {
+  return model_of_the_kind(OwnModel(model_of(parameters, value)).term);
+}
+
+TEST(OwnCost, AHighlightThatIsNoneOfOursStandsBesideOurUsualModel) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string odd = "vec3(pow(NoH, 3.0 / (roughness * roughness)))";
+  EXPECT_EQ(kind_of("float roughness 0.1 1 0.5", odd).spec, "ggx/smith_ggx.correlated/schlick");
+  EXPECT_EQ(kind_of("float roughness 0.1 1 0.5, vec3 albedo 0 1 0.5", "albedo / PI + " + odd).spec,
+            "lambert+ggx/smith_ggx.correlated/schlick");
+  EXPECT_EQ(kind_of("float roughness 0.1 1 0.5, vec3 albedo 0 1 0.5, float clearCoat 0 1 1",
+                    "albedo / PI + clearCoat * " + odd)
+                .spec,
+            "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick");
+}
+
+TEST(OwnCost, AHighlightOfWhiteMetalsOnlyIsSeen) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& value) {
+    return has_highlight(
+        OwnModel(
+            model_of("float roughness 0.5 1 0.6, float metallic 0 1 0, vec3 albedo 0 1 0.5", value))
+            .term);
+  };
+  EXPECT_TRUE(of("albedo * (1.0 - metallic) / PI + albedo * metallic * pow(NoH, 9.0)"));
+  EXPECT_FALSE(of("albedo / PI * burley(NoL, NoV, VoH, roughness)"));
+}
+
+TEST(OwnCost, AMetallicWorkflowIsAdvisedByItsOwnNames) {
+  SKIP_WITHOUT_SHADERS;
+  const auto why =
+      OwnSlips(model_of("float roughness 0.1 1 0.5, float isMetal 0 1 0, vec3 theBase 0 1 0.5",
+                        "theBase / PI + vec3(pow(NoH, 3.0 / (roughness * roughness)) * isMetal)"))
+          .why;
+  EXPECT_HAS(why, "--argument theBase=basecolor isMetal=metallic");
+  EXPECT_EQ(plain_name("material_baseColor"), "basecolor");
+}
+
+}  // namespace
+}  // namespace gonio
