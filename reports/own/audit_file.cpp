@@ -10,6 +10,7 @@
 #include "brdf/catalogue/foreign_terms.h"
 #include "integrate/albedo/normalisation.h"
 #include "reports/own/in_half.h"
+#include "reports/own/pairing.h"
 #include "reports/own/parameters.h"
 #include "reports/own/parts.h"
 #include "reports/own/slip_forms.h"
@@ -81,6 +82,7 @@ FunctionAudit audit_function(const FileFunction& of) {
   const std::size_t term = foreign_term_named(token);
   const Role role = catalogue()[term].role();
   a.laws = laws_of(f, term);
+  a.operations_in_one = operations_in_one(term);
   if (a.laws.fails_behind)
     a.to_check.emplace_back(
         "a light behind the horizon has no value: right where the caller leaves such lights out");
@@ -95,7 +97,8 @@ FunctionAudit audit_function(const FileFunction& of) {
   const auto known = known_parameters(term);
   Domain domain;
   for (const auto& p : known)
-    if (std::isnan(p.start)) domain.emplace_back(p.name, Range{low_of(p), high_of(p)});
+    if (std::isnan(p.start) && (is_colour(p) || is_metallic(p) || is_eta(p)))
+      domain.emplace_back(p.name, Range{low_of(p), high_of(p)});
   if (role == Role::diffuse) {
     domain.emplace_back("nol", cosines);
     domain.emplace_back("nov", cosines);

@@ -18,7 +18,8 @@ namespace gonio {
 struct FunctionAudit {
   FileFunction of;
   Laws laws{};
-  std::optional<Energy> energy{};  ///< of a whole model
+  std::size_t operations_in_one = 0;  ///< in one channel
+  std::optional<Energy> energy{};     ///< of a whole model
   /// Albedo of the highlight along the normal, F0 being 1, at the narrowest width: 1 of a right one.
   std::optional<FoundAt> highlight{};
   std::string half{};  ///< what it keeps in half, in a sentence

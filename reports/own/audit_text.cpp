@@ -103,7 +103,7 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
                       {"power", a.nearest->power},
                       {"factor", a.nearest->factor},
                       {"difference", a.nearest->difference},
-                      {"operations", operations_in(a.nearest->term, channels_of(*a.of.function))}};
+                      {"operations", operations_in_one(a.nearest->term)}};
     j["model"] = Json();
     if (a.model)
       j["model"] = {{"spec", a.model->spec},
@@ -166,8 +166,8 @@ std::string text_of(const FunctionAudit& a) {
   line("in half", a.half);
   if (a.nearest) {
     line(is_same(*a.nearest) ? "it is" : "nearest", nearest_text(a));
-    line("beside ours", fmt::format("{} operations, ours {}", a.of.operations.total(),
-                                    operations_in(a.nearest->term, channels_of(f))));
+    line("beside ours", fmt::format("{} operations{}, ours {}", a.operations_in_one,
+                                    channels_text(f, true), operations_in_one(a.nearest->term)));
   }
   if (const auto& m = a.model) {
     line("D and V",
@@ -183,8 +183,10 @@ std::string text_of(const FunctionAudit& a) {
                      m->lacks_diffuse ? " with Lambert in place of its diffuse part" : ""));
   }
   if (const auto& k = a.of_the_kind)
-    line("beside ours", fmt::format("{} operations, {} has {}: ours of its kind, not the same form",
-                                    a.of.operations.total(), k->spec, k->operations));
+    line("beside ours",
+         fmt::format("{} operations{}, {} has {}: ours of its kind, not the same form",
+                     k->own_operations, channels_text(f, k->spec.starts_with("diffuse.")), k->spec,
+                     k->operations));
   if (!a.no_model.empty()) line("none of ours", a.no_model);
   for (const auto& slip : a.slips) line("likely slip", slip);
   for (const auto& c : a.to_check) line("check", c);

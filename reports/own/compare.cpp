@@ -9,6 +9,7 @@
 #include "base/json/describe.h"
 #include "base/letters.h"
 #include "brdf/catalogue/foreign_terms.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/in_number/number.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/own_files.h"
@@ -169,11 +170,11 @@ TermComparison compare_terms(const std::string& a, const std::string& b, const D
         c, side_of_term(x, rows), side_of_term(y, rows), rows, domain,
         *role == Role::ndf ? [](double f, double g, double most) { return std::abs(f - g) / most; }
                            : [](double f, double g, double) { return std::abs(f - g); });
-    for (const auto term : {x, y})
-      if (const auto* f = foreign_term(term))
-        c.channels = std::max(c.channels, channels_of(*f->function));
-    c.operations_a = operations_in(x, c.channels);
-    c.operations_b = operations_in(y, c.channels);
+    c.operations_a = operations_in_one(x);
+    c.operations_b = operations_in_one(y);
+    for (const auto term_of : {x, y})
+      if (const auto* f = foreign_term(term_of); f && c.in_channels.empty())
+        c.in_channels = channels_text(*f->function, true);
     if (!best || c.largest < best->largest) {
       best = c;
       best->half_a = in_half(x, domain);
@@ -218,9 +219,12 @@ TermComparison compare_with_model(const std::string& own,
                   [&](const Values& p) { return values_in(Number::double_, term, p, rows); }};
   compare_sides(c, ours, theirs, rows, domain,
                 [](double f, double g, double) { return std::abs(f / g - 1); });
-  c.channels = channels_of(*foreign_term(term)->function);
-  c.operations_a = operations_in(term, c.channels);
-  c.operations_b = operations_in(spec, c.channels);
+  const auto& f = *foreign_term(term)->function;
+  const bool in_one = model.model.lobes.empty();
+  const std::size_t channels = in_one ? 1 : channels_of(f);
+  c.operations_a = operations_of(f, channels).total();
+  c.operations_b = operations_in(spec, channels);
+  c.in_channels = channels_text(f, in_one);
   c.half_a = in_half(term, domain);
   c.half_b = in_half(stability::subjects_of(spec).back(), {});
   return c;
@@ -250,7 +254,7 @@ std::string text_of(const TermComparison& c) {
                          : fmt::format("  {:<14}{:.4g} at most, RMS {:.3g}, in {}; at {}\n",
                                        "difference", c.largest, c.rms, c.measure, c.at);
   s += fmt::format("  {:<14}{} and {} operations{}\n", "cost", c.operations_a, c.operations_b,
-                   c.channels > 1 ? fmt::format(", in {} channels", c.channels) : "");
+                   c.in_channels);
   s += fmt::format("  {:<14}{}\n  {:<14}{}\n", "in half", c.half_a, "", c.half_b);
   return s;
 }

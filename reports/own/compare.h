@@ -15,7 +15,7 @@ struct TermComparison {
   std::string pairs;          ///< which parameters stand for which
   double largest = 0, rms = 0;
   std::string measure, at;
-  std::size_t channels = 1;  ///< both sides' operations are of so many
+  std::string in_channels;  ///< " in one channel", where a function has three
   std::size_t operations_a = 0, operations_b = 0;
   std::string half_a, half_b;
 };

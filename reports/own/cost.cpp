@@ -90,15 +90,17 @@ std::size_t channels_of(const foreign::Function& f) {
   return is_colour ? 3 : 1;
 }
 
-std::size_t operations_in(std::size_t term, std::size_t channels) {
-  if (const auto* own = foreign_term(term)) return operations_of(*own->function, channels).total();
-  const Role role = catalogue()[term].role();
-  const bool is_of_channels = role == Role::fresnel || role == Role::diffuse;
-  return operations_of(term).sample.total() * (is_of_channels ? channels : 1);
+std::size_t operations_in_one(std::size_t term) {
+  if (const auto* own = foreign_term(term)) return operations_of(*own->function, 1).total();
+  return operations_of(term).sample.total();
 }
 
 std::size_t operations_in(const std::string& spec, std::size_t channels) {
   return operations_of(compose(spec, channels)).total();
+}
+
+std::string channels_text(const foreign::Function& f, bool in_one) {
+  return channels_of(f) == 1 ? "" : in_one ? " in one channel" : " in 3 channels";
 }
 
 bool has_highlight(std::size_t term) {
@@ -116,7 +118,8 @@ OfTheKind model_of_the_kind(std::size_t term) {
   const auto parameters = known_parameters(term);
   const std::size_t channels = channels_of(*foreign_term(term)->function);
   const auto of = [&](const std::string& spec) {
-    return OfTheKind{spec, operations_in(spec, channels)};
+    return OfTheKind{spec, operations_in(spec, channels),
+                     operations_of(*foreign_term(term)->function, channels).total()};
   };
   if (has_highlight(term)) {
     std::string spec = has_diffuse(term, parameters) ? "lambert+" : "";
@@ -138,7 +141,8 @@ OfTheKind model_of_the_kind(std::size_t term) {
         apart < least * (nearest == lambert ? much : 1))
       least = apart, nearest = form;
   }
-  return {std::string(catalogue()[nearest].id()), operations_in(nearest, channels)};
+  return {std::string(catalogue()[nearest].id()), operations_in_one(nearest),
+          operations_in_one(term)};
 }
 
 }  // namespace gonio
