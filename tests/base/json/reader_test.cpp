@@ -49,7 +49,9 @@ TEST(ParseJson, OfAMillionKeysTakesLinearTime) {
   const Json document = parse_json("file", text + "}");
   std::size_t k = 0;
   JsonReader("file", document, "top").visit_members([&](const auto& name, const auto& value) {
-    if (++k == n) { EXPECT_EQ(name + " " + std::to_string(value.whole_number()), "999999 999999"); }
+    if (++k == n) {
+      EXPECT_EQ(name + " " + std::to_string(value.whole_number()), "999999 999999");
+    }
   });
   EXPECT_EQ(k, n);
 }
