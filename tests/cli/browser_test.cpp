@@ -226,7 +226,7 @@ void add_reports(Pages& pages) {
   ReportFiles files;
   files.findings = findings(schlick);
   files.facts = facts(schlick);
-  const auto stability = Facts::Precision{"ndf.ggx", "cross", "half", 0.02, 0.004};
+  const auto stability = Facts::Precision{"ndf.ggx", "cross", "half, flushed", 0.02, 0.004};
   files.facts.precision.push_back(stability);
   files.facts.precision.push_back(
       {"ggx/smith_ggx.correlated/schlick", "directions", "half", 0.02, 0.2});
