@@ -94,7 +94,7 @@ TEST(Growth, OfIndicesWithTheChannelsOfATableIsLinear) {
       },
       "fit t.csv --model ggx/smith_ggx.correlated/dielectric --fix alpha=0.5 --certificate none"
       " --jobs 1 -o fit.json",
-      8);
+      64);
 }
 
 TEST(Growth, OfAFitWithTheChannelsOfATableIsLinear) {
