@@ -289,9 +289,14 @@ std::vector<LackOfFit::SharedGains> gains_of(const Left& left,
   return all;
 }
 
-}  // namespace
-
-namespace {
+/// Whether each free parameter is the colour of a diffuse term.
+std::vector<bool> are_diffuse(const Problem& p) {
+  std::vector<bool> all(p.free.size());
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t s = q.first; s < q.first + q.count; ++s)
+      if (p.free.mask()[s]) all[p.free.index(s)] = q.name.starts_with("kd");
+  return all;
+}
 
 LackOfFit lack_of_all(
     const Sampling& s, const Problem& p, const Fitted& f, double samples_used, TableFacts& facts) {
@@ -445,13 +450,9 @@ LackOfFit lack_of_fit(
   found = lack_of_all(sampling, p, beside, samples_used, facts);
   found.moved_by_noise = p.free.of(f.model.values);
   const auto without = p.free.of(beside.model.values);
-  for (const auto& q : p.start.model.parameters)
-    for (std::size_t slot = q.first; slot < q.first + q.count; ++slot) {
-      if (!p.free.mask()[slot]) continue;
-      const std::size_t i = p.free.index(slot);
-      // What the dark values say of a diffuse term is a limit.
-      found.moved_by_noise[i] -= q.name.starts_with("kd") ? found.moved_by_noise[i] : without[i];
-    }
+  const auto diffuse = are_diffuse(p);
+  for (std::size_t i = 0; i < without.size(); ++i)  // dark values only limit a diffuse term
+    found.moved_by_noise[i] = diffuse[i] ? 0 : found.moved_by_noise[i] - without[i];
   return found;
 }
 
@@ -482,17 +483,15 @@ void find_dark_bias(LackOfFit& found,
   constexpr double little = 0.2;  // of half an interval
   bool matters = false;
   std::vector<double> moved(p.free.size());
-  for (const auto& q : p.start.model.parameters) {
-    if (!q.name.starts_with("kd")) continue;
-    for (std::size_t s = q.first; s < q.first + q.count; ++s) {
-      if (!p.free.mask()[s]) continue;
-      const std::size_t i = p.free.index(s);
-      moved[i] = bias * std::abs(f.model.values[s]);
-      matters = matters || moved[i] > little * judged[i].t * judged[i].std_error;
-    }
+  const auto diffuse = are_diffuse(p);
+  for (std::size_t i = 0; i < moved.size(); ++i) {
+    if (!diffuse[i]) continue;
+    moved[i] = bias * std::abs(f.model.values[p.free.slots()[i]]);
+    matters = matters || moved[i] > little * judged[i].t * judged[i].std_error;
   }
   if (!matters) return;
-  found.dark_bias = bias;
+  constexpr double worth_a_warning = 0.01;  // of a value
+  if (bias > worth_a_warning) found.dark_bias = bias;
   found.moved_by_noise = std::move(moved);
 }
 

@@ -38,11 +38,11 @@ struct LackOfFit {
   std::optional<Outliers> outliers = {};  ///< or a highlight at wo = wi, which is a misfit
   /// Free parameters less those of a robust fit, which follows outliers less.
   std::vector<double> moved_by_outliers = {};
-  /// By how much less the mean logarithm of the darker half of the values is than that of their mean; 0 where it is little.
+  /// By how much less the mean logarithm of the darker half of the values is than that of their mean; 0 where it is no more than 1 %.
   double dark_bias = 0;
-  /// Free parameters of diffuse terms, which such values determine, times that; 0 of others.
+  /// How far noise of dark values moves each free parameter.
   std::vector<double> moved_by_noise = {};
-  /// What of a parameter's error is neither noise nor misfit.
+  /// Part of a parameter's error that is neither noise nor misfit.
   double moved(std::size_t i) const;
 };
 

@@ -274,7 +274,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
           fmt::format("hold {} (--fix) if it is known from elsewhere: these data hardly tell it",
                       hardly.front()));
   }
-  if (f.dark_bias > 0.01)
+  if (f.dark_bias > 0)
     steps.add("--metric l2_cosine gives dark values, whose logarithms noise lowers, less weight");
   else if (d.log_offset > 0)
     steps.add(fmt::format("--metric l2_cosine gives dark values, which the {}, less weight",

@@ -236,10 +236,6 @@ std::optional<double> forget_needless_lobes(const Problem& p,
   return 2 * (without - cost);
 }
 
-}  // namespace
-
-namespace {
-
 bool is(const ParameterVerdict& v, ParameterStatus status) {
   return v.status == status;
 }

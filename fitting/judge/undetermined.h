@@ -35,7 +35,7 @@ void forget_lobes(const Problem&, Uncertainty&, Lobes, const std::string& why);
 ///                 stays, as the best one of this model, and so do the others of its lobe
 /// \param lost_below  size of values that noise or digits took away [1/sr]: a diffuse term then has an upper limit
 ///
-/// What is still known holds wherever the unknown ones may be: its interval includes how far it moves with them.
+/// The interval of a known parameter includes how far it moves while the unknown ones take every value that they may have.
 bool find_undetermined(const Problem&,
                        const FitData<double>& thin,
                        const Fitted&,

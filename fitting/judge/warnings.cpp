@@ -100,8 +100,7 @@ std::vector<std::string> warnings(const FitOptions& o,
                               std::acos(std::clamp(l.z, -1.0, 1.0)) / degree,
                               std::acos(std::clamp(v.z, -1.0, 1.0)) / degree));
   }
-  constexpr double least_bias = 0.01;  // of a value
-  if (d.log_offset > 0 && !f.offset && !(f.dark_bias > least_bias))
+  if (d.log_offset > 0 && !f.offset && f.dark_bias == 0)
     all.push_back(fmt::format(
         "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
         "to dark places",
@@ -150,7 +149,7 @@ std::vector<std::string> warnings(const FitOptions& o,
         fmt::format("relative errors shift values by about {}, more than intervals allow for: "
                     "--metric log does not",
                     percent(bias)));
-  if (f.dark_bias > least_bias)
+  if (f.dark_bias > 0)
     all.push_back(fmt::format(
         "noise lowers the logarithms of the darkest values by about {}, kd with them: intervals "
         "include it",

@@ -152,7 +152,7 @@ class Sought {
   /// Where the last search ended.
   const OwnAlbedo::Place& last() const { return last_; }
   FoundAt smallest(const Given& from) { return best(std::span(&from, 1), true); }
-  /// What one colour adds to what there is without any; of F0, which is none without light, all of it.
+  /// Most light that one colour adds to what all colours black return; for F0 nothing is taken off, as its lobe is dark without it.
   FoundAt largest_part() {
     std::optional<FoundAt> most;
     for (const auto c : colours()) {

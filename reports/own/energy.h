@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a whole function of a person's file does with light: the most and the least that it returns, and where.
+/// Energy of a whole function of a person's file: the most and the least light that it returns, and where.
 
 #include <cstddef>
 #include <optional>

@@ -324,12 +324,9 @@ void Delimited::header() {
              });
   if (pending_) split_into(fields_, unescaped_, comment_, separator_);
   constexpr std::size_t longest_name = 1 << 16;
-  if (std::ranges::any_of(fields_, [](auto name) { return name.size() > longest_name; }))
-    fail("",
-         "a name of " +
-             fmt::to_string(std::ranges::max(fields_, {}, &std::string_view::size).size()) +
-             " bytes",
-         fmt::format("at most {}", longest_name));
+  if (const auto longest = std::ranges::max(fields_, {}, &std::string_view::size).size();
+      longest > longest_name)
+    fail("", fmt::format("a name of {} bytes", longest), fmt::format("at most {}", longest_name));
   if (fields_.size() == columns)
     names_.assign(fields_.begin(), fields_.end());
   else

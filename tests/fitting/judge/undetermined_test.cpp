@@ -293,14 +293,18 @@ Table matte_near_the_normal(std::uint64_t seed) {
   return t;
 }
 
+FittedParameter kd_near_the_normal(const char* model, std::uint64_t seed) {
+  FitOptions o;
+  o.model = model;
+  o.intervals = Intervals::independent;
+  return parameter(fit(matte_near_the_normal(seed), o).document, "kd");
+}
+
 TEST(Undetermined, DiffuseHoldsWhateverAnUnknownWidthOfItsOwnIs) {
   for (const char* model : {"oren_nayar", "eon"}) {
     unsigned inside = 0;
     for (std::uint64_t seed = 1; seed <= 8; ++seed) {
-      FitOptions o;
-      o.model = model;
-      o.intervals = Intervals::independent;
-      const auto kd = parameter(fit(matte_near_the_normal(seed), o).document, "kd");
+      const auto kd = kd_near_the_normal(model, seed);
       inside += kd.status[0] != ParameterStatus::free ||
                 (kd.ci95_low[0] <= 0.0628 && 0.0629 <= kd.ci95_high[0]);
     }
@@ -313,10 +317,7 @@ TEST(Undetermined, ALobeIsNeedlessThoughItTookTheDiffuseTermsLight) {
   constexpr const char* model = "lambert+beckmann/smith_beckmann.correlated/schlick";
   unsigned at_odds = 0;
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
-    FitOptions o;
-    o.model = model;
-    o.intervals = Intervals::independent;
-    const auto kd = parameter(fit(matte_near_the_normal(seed), o).document, "kd");
+    const auto kd = kd_near_the_normal(model, seed);
     at_odds += kd.status[0] == ParameterStatus::upper_limit && kd.limit[0] < 0.0628;
   }
   EXPECT_EQ(at_odds, 0u);

@@ -53,12 +53,16 @@ TEST(AlbedoOfATable, IsWithinItsErrorWhereSamplesAreFurtherApartThanTheHighlight
   }
 }
 
-/// A metal in rings around the normal, every `step` degrees.
-Table rings(double alpha, double step) {
+/// The model in rings around the normal, every `step` degrees, with directions every 10° in each; one at the normal, or as many.
+Table rings_of(const BoundModel& model,
+               const std::vector<double>& theta_i_deg,
+               double step,
+               double first_phi,
+               bool one_at_normal) {
   DirectionList l;
-  for (const double in : {0.0, 20.0})
+  for (const double in : theta_i_deg)
     for (double out = 0; out < 88; out += step)
-      for (double phi = 0; phi < (out > 0 ? 360 : 1); phi += 10) {
+      for (double phi = first_phi; phi < (out > 0 || !one_at_normal ? 360 : 1); phi += 10) {
         l.theta_i_deg.push_back(in);
         l.phi_i_deg.push_back(0);
         l.theta_o_deg.push_back(out);
@@ -68,9 +72,14 @@ Table rings(double alpha, double step) {
   t.format = "csv";
   t.channels = {"f"};
   t.where = std::move(l);
-  test::put_values(
-      t, bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {alpha}}, {"f0", {1}}}, 1));
+  test::put_values(t, model);
   return t;
+}
+/// A metal in rings around the normal, every `step` degrees.
+Table rings(double alpha, double step) {
+  return rings_of(
+      bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {alpha}}, {"f0", {1}}}, 1), {0, 20},
+      step, 0, true);
 }
 
 TEST(AlbedoOfATable, IsSaidOfAListOnlyAsFarAsItsRingsShowTheHighlight) {
@@ -87,21 +96,7 @@ TEST(AlbedoOfATable, IsSaidOfAListOnlyAsFarAsItsRingsShowTheHighlight) {
 
 /// Directions every 10° whose azimuths pass the mirror direction by.
 Table beside_the_mirror(const BoundModel& model, double first_phi = 5) {
-  DirectionList l;
-  for (const double in : {10.0, 30.0, 50.0, 70.0})
-    for (double out = 0; out < 90; out += 10)
-      for (double phi = first_phi; phi < 360; phi += 10) {
-        l.theta_i_deg.push_back(in);
-        l.phi_i_deg.push_back(0);
-        l.theta_o_deg.push_back(out);
-        l.phi_o_deg.push_back(phi);
-      }
-  Table t;
-  t.format = "csv";
-  t.channels = {"f"};
-  t.where = std::move(l);
-  test::put_values(t, model);
-  return t;
+  return rings_of(model, {10, 30, 50, 70}, 10, first_phi, false);
 }
 TableAlbedo albedo_with_reasons(const Table& t) {
   return albedo_of_table(t, 15, find_peak(t, t.bins()));
