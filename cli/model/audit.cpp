@@ -94,13 +94,12 @@ Exit run_file(const AuditCall& o) {
   const auto all = audit_file(read_as(o.ids[0], o.reading));
   progress.clear();
   take_foreign_guesses();  // its own lines say them
-  if (o.json) {
-    fmt::print("{}", to_json(all));
-  } else {
-    for (const auto& a : all) fmt::print("{}", text_of(a));
-  }
   const bool any =
       std::ranges::any_of(all, [](const auto& a) { return a.of.function.has_value(); });
+  if (o.json)
+    fmt::print("{}", to_json(all));
+  else
+    for (const auto& a : all) fmt::print(any ? stdout : stderr, "{}", text_of(a));
   return any ? Exit::done : Exit::bad_input;
 }
 

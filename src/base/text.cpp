@@ -71,6 +71,10 @@ std::string_view beginning(std::string_view s, std::size_t most) {
   return s.substr(0, most);
 }
 
+std::string in_quotes(std::string_view s) {
+  return fmt::format("'{}'", beginning(s, 100));
+}
+
 std::string counted(std::size_t n, std::string_view thing) {
   return fmt::format("{} {}{}", n, thing, n == 1 ? "" : "s");
 }

@@ -20,6 +20,8 @@ std::string counted(std::size_t n, std::string_view thing);
 
 /// Beginning of a text of at most so many bytes, which ends between characters.
 std::string_view beginning(std::string_view, std::size_t most);
+/// Text of a file in single quotes, for an error's line, which shows its beginning only: a word may be as long as its file.
+std::string in_quotes(std::string_view);
 
 // A name written where others read it: each place has one of these, and a terminal printable().
 

@@ -49,6 +49,11 @@ TEST(Beginning, EndsBetweenCharacters) {
 /// A name that does harm in each of these places.
 const std::string name_of_harm = "--a <&\"'\x1b\x7f\u202e%";
 
+TEST(InQuotes, CopiesNoMoreOfATextThanALineShows) {
+  EXPECT_EQ(in_quotes("1,5x"), "'1,5x'");
+  EXPECT_EQ(in_quotes(std::string(1 << 20, 'x')).size(), 102U);
+}
+
 TEST(NamesElsewhere, AreWordsOfAShell) {
   EXPECT_EQ(path_word("--help"), "./--help");
   EXPECT_EQ(path_word("-a b"), "'./-a b'");

@@ -135,7 +135,8 @@ TEST(OwnModelCommands, AnAuditThatReadNoFunctionEndsAsBadInput) {
   f.write("endless.glsl", endless);
   const auto o = gonio(f, "audit endless.glsl");
   EXPECT_EQ(o.code, 3);
-  EXPECT_NE(o.out.find("line 3"), std::string::npos) << o.out;
+  EXPECT_NE(o.err.find("line 3"), std::string::npos) << o.err;
+  EXPECT_EQ(o.out, "");
   f.write("one.glsl", endless + "float D(float NoH) { return NoH; }\n");
   EXPECT_EQ(gonio(f, "audit one.glsl").code, 0);
 }

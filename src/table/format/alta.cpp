@@ -8,6 +8,7 @@
 #include "base/blanks.h"
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -123,7 +124,8 @@ class AltaReader {
 
  private:
   [[noreturn]] void fail(std::string_view found, const std::string& expected) const {
-    throw bad_input(path_, fmt::format("line {}", line_), std::string(found), expected);
+    throw bad_input(path_, fmt::format("line {}", line_), std::string(beginning(found, 100)),
+                    expected);
   }
 
   bool next_line(std::string_view& line) {
@@ -138,7 +140,7 @@ class AltaReader {
   std::size_t number_in(std::string_view text, std::size_t least, std::size_t most) const {
     const auto n = number_from<std::size_t>(text);
     if (!n || *n < least || *n > most)
-      fail(fmt::format("'{}'", text), fmt::format("a whole number from {} to {}", least, most));
+      fail(in_quotes(text), fmt::format("a whole number from {} to {}", least, most));
     return *n;
   }
 
@@ -199,7 +201,7 @@ class AltaReader {
       for (auto text = next_word(line); !text.empty() && text[0] != '#'; text = next_word(line)) {
         const auto v = number_from<double>(text);
         if (row.size() > 3 * n_out_ + n_in_ || !v)
-          fail(fmt::format("'{}'", text), fmt::format("{} numbers", n_in_ + n_out_));
+          fail(in_quotes(text), fmt::format("{} numbers", n_in_ + n_out_));
         row.push_back(*v);
       }
       if (row.empty()) continue;

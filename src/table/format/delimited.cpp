@@ -8,6 +8,7 @@
 #include "base/csv.h"
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -369,11 +370,11 @@ std::vector<Delimited> Delimited::parts() const {
 double Delimited::number(std::size_t column) {
   const auto field = fields_[column];
   const auto v = number_in(field);
-  if (!v) fail(label(column), fmt::format("'{}'", field), "a number");
+  if (!v) fail(label(column), in_quotes(field), "a number");
   saw_points_ = saw_points_ || field.find('.') != field.npos;
   saw_commas_ = saw_commas_ || field.find(',') != field.npos;
   if (saw_points_ && saw_commas_)
-    fail(label(column), field, "decimal points or decimal commas, not both");
+    fail(label(column), in_quotes(field), "decimal points or decimal commas, not both");
   return *v;
 }
 
@@ -385,8 +386,8 @@ void Delimited::fail(std::string_view column,
                      std::string_view found,
                      const std::string& expected) const {
   const std::string name = column.empty() ? "" : fmt::format(", column {}", column);
-  throw bad_input(path_, fmt::format("line {}{}", line_number_, name), std::string(found),
-                  expected);
+  throw bad_input(path_, fmt::format("line {}{}", line_number_, name),
+                  std::string(beginning(found, 100)), expected);
 }
 
 }  // namespace gonio

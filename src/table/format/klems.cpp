@@ -8,6 +8,7 @@
 #include "base/blanks.h"
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/text.h"
 #include "table/format/tensor_tree.h"
 
 #include <fmt/format.h>
@@ -167,7 +168,7 @@ class KlemsReader {
     const std::string s = text(node);
     const auto v = number_from<double>(s);
     if (!v || !(*v >= least && *v <= most))
-      fail(node.name(), fmt::format("'{}'", s), fmt::format("a number in [{}, {}]", least, most));
+      fail(node.name(), in_quotes(s), fmt::format("a number in [{}, {}]", least, most));
     return *v;
   }
 
@@ -224,7 +225,7 @@ class KlemsReader {
       const auto field = rest.substr(0, rest.find_first_of(between));
       const auto v = number_from<double>(field);
       const auto place = fmt::format("{}, number {}", node.name(), all.size() + 1);
-      if (!v) fail(place, fmt::format("'{}'", field), "a number");
+      if (!v) fail(place, in_quotes(field), "a number");
       if (all.size() == count) fail(place, "one more", fmt::format("{} numbers", count));
       all.push_back(*v);
       rest.remove_prefix(field.size());

@@ -8,6 +8,7 @@
 #include "base/blanks.h"
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -94,7 +95,8 @@ class SsddReader {
 
  private:
   [[noreturn]] void fail(std::string_view found, const std::string& expected) const {
-    throw bad_input(path_, fmt::format("line {}", line_), std::string(found), expected);
+    throw bad_input(path_, fmt::format("line {}", line_), std::string(beginning(found, 100)),
+                    expected);
   }
   static bool line_has_version(std::string_view line) {
     const auto version = next_word(line);
@@ -165,7 +167,7 @@ class SsddReader {
       const auto v = number_from<double>(field);
       if (all.size() == most_numbers) fail("more numbers", fmt::format("at most {}", most_numbers));
       if (!v || !(*v >= least && *v <= most))
-        fail(fmt::format("'{}'", field), fmt::format("a number from {} to {}", least, most));
+        fail(in_quotes(field), fmt::format("a number from {} to {}", least, most));
       all.push_back(*v);
     }
     if (all.empty()) fail("an empty list", "one number at least");
@@ -269,8 +271,7 @@ class SsddReader {
       std::size_t c = 0;
       for (auto field = next_word(line); !field.empty(); field = next_word(line)) {
         const auto v = number_from<double>(field);
-        if (!v || c == channels)
-          fail(fmt::format("'{}'", field), fmt::format("{} numbers", channels));
+        if (!v || c == channels) fail(in_quotes(field), fmt::format("{} numbers", channels));
         add(i, c++, *v);
       }
       if (c != channels) fail(fmt::format("{} numbers", c), fmt::format("{}", channels));

@@ -8,6 +8,7 @@
 
 #include "base/error.h"
 #include "base/numbers.h"
+#include "base/text.h"
 
 #include <fmt/format.h>
 
@@ -115,8 +116,7 @@ class TensorTreeParser {
     while (next() != '}') {
       const auto word = rest_.substr(0, rest_.find_first_of(" ,\t\r\n{}"));
       const auto v = number_from<float>(word);
-      if (!v || !std::isfinite(*v))
-        fail(word.empty() ? "no '}'" : fmt::format("'{}'", word.substr(0, 40)), "a number");
+      if (!v || !std::isfinite(*v)) fail(word.empty() ? "no '}'" : in_quotes(word), "a number");
       if ((tree_.values.size() + 1) * 5 > most_values) fail("more", "fewer values");
       tree_.values.push_back(*v);
       rest_.remove_prefix(word.size());
