@@ -62,8 +62,8 @@ class Ends {
   }
 
   /// Limit of what stands at a bound, unless it is pushed against that, or is not known to within its
-  /// range.
-  void find_limit(std::size_t i, double luck) const {
+  /// range.  \param widened  by a misfit: a limit at the range's end is the model's fault, and the value still its best
+  void find_limit(std::size_t i, double luck, bool widened) const {
     const double low = problem_.bounds.low[i], high = problem_.bounds.high[i];
     const auto forget = [&] {
       u_[i].forget(fmt::format("any value from {:.3g} to {:.3g} does as well", low, high));
@@ -75,7 +75,7 @@ class Ends {
     if (!below && !above) return find_ends(i);
     const double end = below ? high : low;
     const double limit = along.reach(end, much);
-    if (limit == end) return forget();
+    if (limit == end) return widened ? find_ends(i) : forget();
     u_[i].keep_limit(
         below ? ParameterStatus::upper_limit : ParameterStatus::lower_limit, limit,
         fmt::format("values {} to {:.3g} do as well", below ? "down" : "up", below ? low : high));
@@ -337,9 +337,9 @@ bool find_undetermined(const Problem& p,
   for (std::size_t i = 0; i < n; ++i) {
     if (u[i].status == ParameterStatus::at_bound) {
       if (!p.narrowed[i] && !is_pushed(here, i, count - static_cast<double>(n), rounding))
-        ends.find_limit(i, luck * variance);
+        ends.find_limit(i, luck * variance, widened);
     } else if (u[i].status == ParameterStatus::not_identifiable && had_range[i]) {
-      ends.find_limit(i, luck * variance);
+      ends.find_limit(i, luck * variance, widened);
     }
   }
   for (std::size_t i = 0; i < n; ++i) {
