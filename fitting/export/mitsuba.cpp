@@ -133,7 +133,8 @@ std::vector<TargetForm> mitsuba_forms(const Surface& s) {
                v[2] * share_of_band(2, nm);
       }));
       x.values.assign(rgb.begin(), rgb.end());
-      for (double& part : x.values) part = std::max(part, 0.0);  // bands cut at 0 may leave less
+      // Bands cut at 0 may leave less, and the sum of equal ones rounds.
+      for (double& part : x.values) part = std::clamp(part, x.legal.low, x.legal.high);
     }
     return evaluated(now, angles);
   });
@@ -160,7 +161,8 @@ std::vector<TargetForm> mitsuba_forms(const Surface& s) {
           for (std::size_t i = 0; i < now.size(); ++i) {
             if (!is_index(now[i].name) || is_grey(now[i].values)) continue;
             const auto v = written_bands(now[i].name, now[i].values);
-            at[i].values = {half(0) * v[0] + half(1) * v[1] + half(2) * v[2]};
+            at[i].values = {std::clamp(half(0) * v[0] + half(1) * v[1] + half(2) * v[2],
+                                       now[i].legal.low, now[i].legal.high)};
           }
           const auto lobes = evaluated(at, angles);
           for (std::size_t c = 0; c < f.size(); ++c)

@@ -123,6 +123,15 @@ TEST(ExportedFit, TakesAnExtinctionOfOneChannelToMitsuba) {
   }
 }
 
+TEST(ExportedFit, KeepsAnIndexAtTheEndOfItsRangeInMitsubasColours) {
+  for (const char* eta : {"20,20,19", "20,19,18", "19,20,20"})
+    EXPECT_NO_THROW(export_fit(ExportTarget::mitsuba, "fit.json",
+                               bound("ggx/smith_ggx.separable/conductor",
+                                     (std::string("alpha=0.3,k=0,eta=") + eta).c_str()),
+                               1e9))
+        << eta;
+}
+
 TEST(ExportedFit, WritesSpectraForMitsubaWhoseColourIsTheIndexs) {
   const auto e = export_fit(ExportTarget::mitsuba, "fit.json",
                             bound("ggx/smith_ggx.separable/conductor", "alpha=0.3,metal=Au"), 0.02);
