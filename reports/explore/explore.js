@@ -263,7 +263,7 @@ function known(found, p) {
   if (status === "at_bound") return [`fit: at the end of its range, and the data push beyond it${why}`];
   if (status === "not_identifiable") return [`fit: not known${why}`];
   if (status === "unbounded" || !ends.some(Boolean)) return [reason ? `fit: ${reason}` : ""];
-  const words = ends[0] && ends[1] ? `95 % interval ${shown(low)} to ${shown(high)}` : ends[1] ? `at most ${shown(high)} (95 %)` : `at least ${shown(low)} (95 %)`;
+  const words = ends[0] && ends[1] ? `95 % interval${p.roughness ? ` of ${p.name}` : ""} ${shown(low)} to ${shown(high)}` : ends[1] ? `at most ${shown(high)} (95 %)` : `at least ${shown(low)} (95 %)`;
   return [`fit: ${words}${why}`, ends[0] ? low : p.from, ends[1] ? high : p.to];
 }
 function slider(item, p, c) {
@@ -287,7 +287,11 @@ function slider(item, p, c) {
     for (const other of document.querySelectorAll(".slider")) other.show?.();
   };
   range.onchange = finish;
-  exact.onchange = () => { if (exact.value !== "" && Number.isFinite(Number(exact.value))) move(c, Number(exact.value)); show(), redraw(item), finish(); };
+  exact.onchange = () => {
+    const asked = Number(exact.value);
+    if (exact.value !== "" && Number.isFinite(asked)) move(c, asked), say(asked < p.low || asked > p.high ? `${name} goes from ${shown(p.low)} to ${shown(p.high)}.` : "");
+    show(), redraw(item), finish();
+  };
   show();
   const track = make("div", { class: "track" }, range), found = item.fit?.parameters?.[p.name]?.[c], [words, ...ends] = found ? known(found, p) : [""];
   if (ends.length) {
@@ -584,6 +588,8 @@ function sphere_words(model, table) {
   const [median, p95, covered] = numbers(room.f, 3);
   return covered > 0.3 ? ` Their spheres differ${wide_lamp() < 0 ? "" : ` under ${catalogue.lights[0]}`} by ΔE2000 ${median.toFixed(1)}, 95 % of the pixels by at most ${p95.toFixed(1)}.` : "";
 }
+/// What a fit may have left out, and this comparison has not.
+const beside_fit = (model, table) => (model.fit?.file === table.name && model.fit.log_rms !== undefined ? `, those too that the fit leaves out${model.fit.left_out ? ` by ${model.fit.left_out}` : ""}` : "");
 /// What is on screen in words.
 function show_facts() {
   const model = items[active], lines = [];
@@ -596,7 +602,7 @@ function show_facts() {
     for (const table of items) if (comparable(table)) {
       checked(g.difference(model.handle, table.samples, room.f, room.rgba)), put(`ratio-${items.indexOf(table)}`, mapSize);
       const [n, typical, worst, h, d] = numbers(room.f, 5);
-      lines.push(n ? `${label(model)} beside ${label(table)}: typical factor ×/÷ ${typical.toFixed(3)} over ${n} values; worst place θh ${degrees(h)}, θd ${degrees(d)}, where the model is ${worst > 1 ? `${shown(Number(worst.toPrecision(3)))} times too bright` : `${shown(Number((1 / worst).toPrecision(3)))} times too dark`}.${sphere_words(model, table)}` : `${label(model)} and ${label(table)} have no value in common.`);
+      lines.push(n ? `${label(model)} beside ${label(table)}: typical factor ×/÷ ${typical.toFixed(3)} over ${n} values${beside_fit(model, table)}; worst sample at θh ${degrees(h)}, θd ${degrees(d)}, where the model is ${worst > 1 ? `${shown(Number(worst.toPrecision(3)))} times too bright` : `${shown(Number((1 / worst).toPrecision(3)))} times too dark`}.${sphere_words(model, table)}` : `${label(model)} and ${label(table)} have no value in common.`);
     }
   }
   $("facts").replaceChildren(...lines.map((line) => make("p", {}, line)));
@@ -674,7 +680,7 @@ function connect() {
 
   $("copy-spec").onchange = () => { copy(commands[$("copy-spec").value]()), $("copy-spec").value = ""; };
   $("copy-fit").onclick = safely(() => copy(fit_command()));
-  $("copy-json").onclick = () => copy(document_text());
+  $("copy-json").onclick = () => copy(document_text(), items[active].fit && documents.has(items[active].fit.id) ? ` It holds the channels that are shown, ${items[active].channels.join(" ")}; "Save as JSON" has the whole fit.` : "");
   $("copy-address").onclick = () => {
     const dropped = items.filter((item) => item.dropped).map(label).join(", ");
     copy(location.href, dropped && ` The address does not hold ${dropped}, as "Save page" does.`);

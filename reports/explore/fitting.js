@@ -34,9 +34,10 @@ const carefully = (call) => async (...what) => {
   try { await call(...what); } catch (error) { say(error.message, error.message !== "Cancelled."); }
   if ([document.body, $("cancel")].includes(document.activeElement) && from !== document.body) (from.isConnected && !from.disabled ? from : $("fit")).focus();
 };
-/// The table and the model that a fit is of: what is chosen, and the first beside it that has as many channels.
+/// The table and the model that a fit is of: what is chosen, and beside it the table that it was fitted to, or else the first that is shown with as many channels.
 function fit_pair() {
-  const chosen = items[active], other = is_model(chosen) ? items.find(comparable) : items.find((item) => is_model(item) && item.channels.length === chosen.channels.length);
+  const chosen = items[active], beside = items.filter(comparable);
+  const other = is_model(chosen) ? beside.find((table) => table.name === chosen.fit?.file) ?? beside.find((table) => table.visible) ?? beside[0] : items.find((item) => is_model(item) && item.channels.length === chosen.channels.length);
   return other && (is_model(chosen) ? [other, chosen] : [chosen, other]);
 }
 function some_pair() {
@@ -70,6 +71,7 @@ function asked() {
     else if (name === null) throw new Error(`options: found ${plain ?? quoted}, expected --NAME first`);
     else words[name].push(plain ?? quoted);
   }
+  if (words.models) throw new Error("options: found --models; the button “Compare models” does that");
   if (mask) words.mask = [mask];
   return words;
 }
@@ -123,7 +125,7 @@ function fitted(text, name, table, optimum, id, command) {
     if (input.mask) options.mask = [input.mask];
     if (d.metric && d.metric !== "log") options.metric = [d.metric];
     if (d.robust && d.robust !== "none") options.robust = [d.robust];
-    Object.assign(fit, { file, log_rms: d.residuals.log_rms, converged: d.solver?.termination === "converged", warnings: d.warnings ?? [], next: (d.next ?? []).slice(0, 2), meets: Boolean(d.misfit?.tested && !d.misfit.told && !d.warnings?.length), left_out: input.mask ?? "", command: command ?? command_of(file, null, d.model, options) });
+    Object.assign(fit, { file, log_rms: d.residuals.log_rms, metric: d.metric ?? "log", converged: d.solver?.termination === "converged", warnings: d.warnings ?? [], next: (d.next ?? []).slice(0, 2), meets: Boolean(d.misfit?.tested && !d.misfit.told && !d.warnings?.length), left_out: input.mask ?? "", command: command ?? command_of(file, null, d.model, options) });
   }
   documents.set(id, text);
   return { name, spec: d.model, values, channels, fit: said || d.residuals || Object.keys(parameters).length ? fit : null };
@@ -131,7 +133,7 @@ function fitted(text, name, table, optimum, id, command) {
 const new_id = () => String(Date.now());
 /// Shows a fit in place of the model that was fitted, or beside what is there.
 function take_fit(data, instead) {
-  if (!instead && items.length >= colours) throw new Error(`${data.name}: ${full}`);
+  if (!instead && items.length >= colours) throw new Error(`${data.name || "the fit"}: ${full}`);
   const item = bind(data.name, data.spec, "", data.channels, data.fit);
   for (const p of item.about.parameters) if (data.values[p.name]) numbers(g.values(item.handle) + 8 * p.first, p.count).set(data.values[p.name]);
   item.about = describe(item.handle);
@@ -168,9 +170,9 @@ function comparison_panel(d) {
   const rows = d.rows.map(([model, note, unseen, log_rms, bic, free]) => {
     const take = make("button", {}, "Take");
     take.onclick = carefully(() => fit_table(model));
-    return make("tr", model === d.recommended ? { class: "best" } : {}, make("td", {}, model, ...(note ? [make("small", {}, note)] : [])), make("td", {}, factor(unseen)), make("td", {}, factor(log_rms)), make("td", {}, number(bic, 4)), make("td", {}, number(free)), make("td", {}, take));
+    return make("tr", model === d.recommended ? { class: "best" } : {}, make("td", {}, model, ...(note ? [make("small", {}, note)] : []), " ", take), make("td", {}, factor(unseen)), make("td", {}, factor(log_rms)), make("td", {}, number(bic, 4)), make("td", {}, number(free)));
   });
-  const head = make("tr", {}, ...["model", "typical factor on unseen angles", "of the fit", "BIC", "free", ""].map((t) => make("th", { scope: "col" }, t)));
+  const head = make("tr", {}, ...["model", "typical factor on unseen angles", "of the fit", "BIC", "free"].map((t) => make("th", { scope: "col" }, t)));
   return [make("h2", {}, `Models compared on ${d.file}`), ...(d.recommended ? [make("p", {}, d.none_fits ? "None fits; the nearest is " : "Take ", make("b", {}, d.recommended), `. ${d.reason ?? ""}`)] : []),
     ...d.beware.map((w) => line("Beware", w)), ...d.as_good.map((m) => line("As good", m)), ...d.disagreement.map((w) => line("But", w)),
     make("div", { class: "scroll" }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))), make("p", { class: "muted" }, "The program adds the colour difference of a rendered sphere and the speed of each: ", make("code", {}, d.command)), ...saver(d.id, `${d.file}.models.json`)];
@@ -191,7 +193,11 @@ async function fit_table(model) {
   const found = fitted(text, "", table, optimum, new_id(), command);
   take_fit(found, found.channels.length === item.channels.length ? item : null);  // beside it, where the fit is of some channels
   if (innerWidth < 700) $("fitted").scrollIntoView({ block: "nearest" });
-  say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.` : "Fitted.");
+  const before = item.fit, now = found.fit, alike = before?.file === now.file && before.metric === now.metric && before.left_out === now.left_out;
+  say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.`
+    : !before?.file || before.file !== now.file ? `Fitted to ${now.file}.`
+    : alike ? `Fitted: typical factor ${times(now.log_rms)}, ${times(before.log_rms)} before.`
+    : `Fitted: typical factor ${times(now.log_rms)}. The fit before had another metric or other samples, so its ${times(before.log_rms)} does not compare.`);
 }
 async function compare_models() {
   const [table] = some_pair(), { model, ...words } = asked(), id = new_id();
@@ -219,7 +225,7 @@ async function read_files(list) {
     if (f.name.endsWith(".json") && f.size < 1e7) {
       const text = await f.text();
       if (text.includes('"gonio.fit/1"')) {
-        try { take_fit(fitted(text, f.name, items.find((item) => !is_model(item)), {}, new_id())); } catch (error) { throw error instanceof SyntaxError ? new Error(`${f.name}: ${error.message}`) : error; }
+        try { take_fit(fitted(text, f.name, items.find((item) => !is_model(item)), {}, new_id())), say(""); } catch (error) { throw error instanceof SyntaxError ? new Error(`${f.name}: ${error.message}`) : error; }
         continue;
       }
     }
@@ -233,6 +239,7 @@ async function read_table(source) {
   if (items.length >= colours) throw new Error(`${source.name}: ${full}`);
   const d = JSON.parse(await ask({ do: "read", file: source.name, options: asked() }, files));
   show_columns(source, d);
+  if (!d.table && !$("columns").hidden) $("columns").scrollIntoView({ block: "nearest" });
   if (!d.table) throw new Error(d.error);
   const table = hold_table({ ...d.table, ...source, inspection: d.inspection, dropped: true });
   tables.push(table), items.unshift(table), active = Math.min(active + 1, items.length - 1);
@@ -297,6 +304,7 @@ function connect_fitting() {
   $("drop").hidden = $("save-page").hidden = false;
   const inspected = tables.find(({ data }) => data.inspection);  // of a page that was saved
   if (inspected) show_inspection(inspected.data.inspection);
+  for (const id of ["mask", "words"]) $(id).onkeydown = (e) => { if (e.key === "Enter" && !$("fit").disabled) $("fit").click(); };
   $("fit").onclick = carefully(() => fit_table()), $("choose").onclick = carefully(compare_models), $("cancel").onclick = () => job?.cancel();
   $("save-page").onclick = carefully(save_page);
   $("file").onchange = carefully(async () => { const list = [...$("file").files]; $("file").value = ""; await read_files(list); });
