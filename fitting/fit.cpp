@@ -165,8 +165,8 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
           values.std_errors(),
           angles,
           angles,
-          stated ? "clustered by incident angle, or the stated uncertainties where these say more"
-                 : "clustered by incident angle, or of independent values where these are wider"};
+          stated ? "the wider of two, clustered by incident angle or from the stated uncertainties"
+                 : "the wider of two, clustered by incident angle or from independent values"};
 }
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.

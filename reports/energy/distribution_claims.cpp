@@ -71,12 +71,14 @@ void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
   };
   const auto low = of("riemann"), middle = of("riemann_midpoint"), end = r.light.irradiance.end();
   if (low == end || middle == end) return;
-  to.judge("irradiance is a Riemann sum, divided by its samples", "",
-           verdict_on_small(std::abs(low->bias)),
-           fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
-           fmt::format("with its factor of π², {} samples are off by {} under a sky brighter "
-                       "towards the zenith. From the middle of each step they are off by {}.",
-                       low->samples, percent(low->bias, 2), percent(middle->bias, 2)));
+  to.judge(
+      "irradiance is a Riemann sum, divided by its samples", "",
+      verdict_on_small(std::abs(low->bias)),
+      fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
+      fmt::format(
+          "times π² over their number, {0} samples are off by {1} under a sky brighter towards "
+          "the zenith. From the middle of each step they are off by {2}.",
+          low->samples, percent(low->bias, 2), percent(middle->bias, 2)));
 }
 
 }  // namespace

@@ -264,7 +264,7 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
   to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
            fmt::format("{} forms exceed it", of_all(makers, makes.size())),
            fmt::format("{} forms reflect more light than arrives, at some roughness and "
-                       "angle.{} The others {}.",
+                       "angle. A form with several tails counts once.{} The others {}.",
                        of_all(makers, makes.size()), words,
                        largest > 1
                            ? fmt::format("exceed it by {} at most, within their integral's error",

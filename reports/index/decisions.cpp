@@ -67,7 +67,7 @@ bool is_exact(const Candidate& c) {
 }
 
 /// Cost of the cheap form.
-constexpr std::string_view no_more = "none (the usual shortcut)";
+constexpr std::string_view no_more = "none (the usual form)";
 
 /// "+0.40 ns", or that it takes no more.
 std::string cost_text(const Candidate& taken, const Candidate& cheap) {
@@ -78,7 +78,7 @@ std::string cost_text(const Candidate& taken, const Candidate& cheap) {
 }
 /// What to take instead where time is what lacks, what that saves and what it leaves.
 std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::string_view left) {
-  return fmt::format("time is short: {} saves {}, {}", name_of_form(cheaper.form),
+  return fmt::format("time is short: then {} saves {}, {}", name_of_form(cheaper.form),
                      ns_text(more(cheaper, taken).ns), left);
 }
 /// Aside on the cost, where both stand in a whole model, composed of its terms: that it vanishes where memory is the limit.
@@ -86,7 +86,7 @@ std::string streaming_aside(const Facts& f, std::string_view taken, std::string_
   const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
   if (!a || !b) return {};
   if (const auto d = more(*b, *a); d.survives && d.ns > 0) return {};
-  return " (none where memory is the limit)";
+  return " (a whole model takes no longer where memory is the limit)";
 }
 
 // --- Masking ---
@@ -97,7 +97,9 @@ void masking(std::vector<Decision>& to, const Facts& f) {
     if (const auto* t = time_of(f.in_cache, m.form)) all.push_back(candidate(m.form, m.rms, *t));
   const auto *cheap = find(all, direct), *taken = choose(all, direct, small_masking_error);
   if (!cheap || !taken) return;
-  const auto rms = [](const Candidate& c) { return fmt::format("RMS {:.2g} of G₂", c.error); };
+  const auto rms = [](const Candidate& c) {
+    return fmt::format("RMS error {:.2g} in G₂", c.error);
+  };
   const auto model = [](std::string_view form) {
     return to_text(model_of_lobe("ggx", short_id(form), "schlick"));
   };
@@ -124,13 +126,14 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   const auto factor = [](double log_rms) { return fmt::format("×/÷ {:.3g}", std::exp(log_rms)); };
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
-       fmt::format("typically {} beside published fits (median), which have a longer tail for {} "
-                   "materials",
+       fmt::format("typically {} from published fits (the median; {} materials have a longer tail "
+                   "by their published exponent)",
                    factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
        std::string(no_more),
-       fmt::format("γ is fitted (median {:.2g}, where it is determined): GTR with its own Smith, "
-                   "typically {}, {}",
-                   t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
+       fmt::format(
+           "you fit γ, too (median {:.2g} of those determined): then GTR with its own Smith, "
+           "typically {}, {}",
+           t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
 // --- Fresnel ---
@@ -216,7 +219,7 @@ std::string seen_side_by_side(const Facts& f,
                                 form.empty() ? "" : fmt::format(" ({})", delta_at_most(error))));
   }
   return parts.empty() ? std::string()
-                       : fmt::format("next to a photograph: {}", fmt::join(parts, "; "));
+                       : fmt::format("next to a photograph: then {}", fmt::join(parts, "; "));
 }
 
 void fresnel_of(std::vector<Decision>& to,
@@ -238,19 +241,17 @@ void fresnel_of(std::vector<Decision>& to,
   d.take_id = id_of(taken->form);
   d.cost = cost_text(*taken, *cheap);
   const auto worst = std::ranges::max_element(materials, {}, &Shown::delta_e);
-  const auto glass = std::ranges::find(materials, "IOR 1.5", &Shown::material);
-  const auto& example = glass == materials.end() ? *worst : *glass;
   if (taken == cheap) {
     d.error = delta_at_most(taken->error);
     d.unless = seen_side_by_side(f, kind, materials);
   } else {
     d.error = fmt::format("{} (Schlick: {} for {})",
                           is_exact(*taken) ? "none" : delta_at_most(taken->error),
-                          delta_at_most(example.delta_e), material_text(example.material));
+                          delta_at_most(worst->delta_e), material_text(worst->material));
     const double head_on = std::ranges::max(materials, {}, &Shown::head_on).head_on;
     if (is_clearly_cheaper(*cheap, *taken))
       d.unless = head_on <= just_seen
-                     ? "it is seen only head on: Schlick, " + delta_at_most(head_on)
+                     ? "it is seen only head on: then Schlick, " + delta_at_most(head_on)
                      : cheaper_text(*cheap, *taken, delta_at_most(cheap->error));
   }
   if (d.cost.starts_with('+'))
@@ -324,13 +325,13 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
     return compensated(*scattering_of(f, c.form, bright, of_image_light), *nothing)->from;
   };
   const auto* other = nearest_cheaper(all, *taken);
-  auto unless = fmt::format("F0 is {:g}: one bounce, {}", plastic,
+  auto unless = fmt::format("F0 is {:g}: then one bounce, {}", plastic,
                             delta_at_most(std::ranges::max(of_plastic->delta_e)));
   if (const auto* way = scattering_of(f, taken->form, plastic, of_image_light))
     if (const auto pays = compensated(*way, *of_plastic))
-      unless = fmt::format("F0 is {:g}: from roughness {:g} on", plastic, pays->from);
+      unless = fmt::format("F0 is {:g}: then from roughness {:g} on", plastic, pays->from);
   if (other && other->form != single)
-    unless += fmt::format("; time is short: {}, {}", name_of_form(other->form),
+    unless += fmt::format("; time is short: then {}, {}", name_of_form(other->form),
                           delta_at_most(other->error));
   Decision d{fmt::format("Multiple scattering under {}, F0 {:g} (bright metal)",
                          of_image_light ? "image-based light" : "single lights", bright),
@@ -342,9 +343,9 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), from(*taken));
-    d.error +=
-        fmt::format(" ({}one bounce: {})",
-                    taken->error > side_by_side ? "no form leaves less; " : "", at_most(without));
+    d.error += fmt::format(" ({}one bounce: {})",
+                           taken->error > side_by_side ? "no single form leaves less; " : "",
+                           at_most(without));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
   }
@@ -359,14 +360,14 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
   // A sphere shows its middle head on, and most of itself from the side.
   to.push_back(
       {fmt::format("Image-based light on white metal, worst of {} skies", s.skies),
-       fmt::format("Split sum, {0} × {0} table in half", s.size), "split_sum",
+       fmt::format("Split sum, {0} × {0} table in half precision", s.size), "split_sum",
        s.head_on && s.from_side ? fmt::format("mean ΔE {} head on, {} at 60°", at_most(*s.head_on),
                                               at_most(*s.from_side))
                                 : fmt::format("RMS {:.1g} of E", s.rms),
        s.ns ? fmt::format("{} a pixel, in all", ns_text(*s.ns)) : "one look-up",
        s.grazing
-           ? fmt::format("rims are looked at: integrate; the split sum's mean ΔE reaches {} at "
-                         "cosine 0.1",
+           ? fmt::format("the rim matters: then integrate over directions; the split sum's mean ΔE "
+                         "there reaches {} (cosine 0.1)",
                          rounded_up(*s.grazing))
            : ""});
 }
@@ -414,8 +415,9 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
                                         delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("up to {} of the light may leave: {}, {}", made(*form_of(nearer->form)),
-                           in_text(nearer->form), delta_at_most(nearer->error));
+    d.unless = fmt::format("you accept up to {} of reflected light: then {}, {}",
+                           made(*form_of(nearer->form)), in_text(nearer->form),
+                           delta_at_most(nearer->error));
   to.push_back(std::move(d));
 }
 
@@ -441,14 +443,15 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                   "none (half keeps its digits from no α on)", "", ""});
     return;
   }
-  to.push_back({"Precision: D V F NoL of GGX in half",
-                fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
-                fmt::format("≤ {} on metal, light and view up to {:.0f}° (F0 of {:g} or more; "
-                            "a search found no larger error, which is no proof)",
-                            percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
-                fmt::format("smoother surfaces render as roughness {}",
-                            rounded_up(std::sqrt(*half->safe_from))),
-                fmt::format("only D is in half: α clamped at {}", rounded_up(*own->safe_from))});
+  to.push_back(
+      {"Precision: D V F NoL of GGX in half",
+       fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
+       fmt::format("≤ {} on metal, light and view up to {:.0f}° (F0 of {:g} or more; "
+                   "a search found no larger error, which is no proof)",
+                   percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
+       fmt::format("all below roughness {0} is drawn as {0}",
+                   rounded_up(std::sqrt(*half->safe_from))),
+       fmt::format("only D is in half: then α clamped at {}", rounded_up(*own->safe_from))});
 }
 
 }  // namespace
@@ -485,7 +488,7 @@ std::vector<Decision> decisions(const Facts& f) {
 }
 
 std::string without_aside(const std::string& cell) {
-  return cell.substr(0, cell.find(" ("));
+  return cell.ends_with(')') ? cell.substr(0, cell.find(" (")) : cell;
 }
 
 }  // namespace gonio

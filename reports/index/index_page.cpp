@@ -39,7 +39,7 @@ std::vector<ClaimOf> claims_of(const ReportIndex& index) {
 }
 
 std::string setting_of(const ReportIndex& i) {
-  return i.full ? "full" : i.quick ? "quick" : "standard";
+  return i.full ? "full" : i.quick ? "quick" : "standard (no --quick)";
 }
 
 /// Sentence that a reader takes away from a report: its own words for that, or those that it begins with.
@@ -195,9 +195,11 @@ Cell with_aside(const std::string& text, std::string look = {}, std::string titl
 Part lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
   std::string text =
-      "“Error left” compares each form with exact Fresnel, exact Smith masking and all bounces of "
-      "light. “Costs” is the time that a float sample takes beyond the usual shortcut. The usual "
-      "shortcuts are Schlick's k, Schlick's Fresnel, GGX, one bounce and Lambert.";
+      "A form is one formula for a part of a model. “Error left” compares it with exact Fresnel, "
+      "exact Smith masking and all bounces of light, and on matte surfaces with EON. “Costs” is "
+      "the "
+      "time that a float sample takes beyond the usual form. Usual are Schlick's masking with k = "
+      "(r+1)²/8, Schlick's Fresnel, GGX, one bounce and Lambert.";
   if (m && m->model_ns)
     text += fmt::format(" A whole GGX highlight takes {} ns.", significant(*m->model_ns, 2));
   text += m ? fmt::format(" Measured on {} with {} from cache, {} setting.",
@@ -209,7 +211,7 @@ Part lead(const ReportIndex& i) {
         plain(*m->others, 2), m->threads);
   if (!i.facts.fresnel.empty())
     text += fmt::format(
-        " ΔE is CIEDE2000: hardly anybody sees less than {}, and up to {} it shows only side by "
+        " ΔE is CIEDE2000: nobody sees {} or less, and up to {} it shows only side by "
         "side; “{}” has the sources.",
         plain(just_seen), plain(side_by_side), fresnel_title);
   return Prose{text, "lead"};
@@ -272,9 +274,10 @@ Section cards(const ReportIndex& i) {
     html += fmt::format(
         R"(<article class="card"><h3><a href="{0}">{1}</a></h3><p>{2}</p><p class="small muted"><a href="{3}.json">JSON</a> · <a href="{3}.csv">CSV</a> · {4} · made in {5}</p></article>)",
         href, markup_text(capital(std::string(r.what))), markup_text(sentence_of(r)), r.name,
-        r.first.figures.empty() ? many(r.pictures, "picture")
-                                : fmt::format(R"(<a href="{}/{}.svg">the first of {}</a>)", r.name,
-                                              r.first.figures[0].id, many(r.pictures, "picture")),
+        r.first.figures.empty()
+            ? many(r.pictures, "picture")
+            : fmt::format(R"(<a href="{}/{}.svg">first picture</a> of {})", r.name,
+                          r.first.figures[0].id, count_text(r.pictures)),
         r.ms >= 1000 ? significant(r.ms / 1000) + "\u202fs" : significant(r.ms) + "\u202fms");
   }
   if (i.reports.empty()) return {};
@@ -329,17 +332,18 @@ std::string index_page_html(const ReportIndex& i) {
       {"How it was measured",
        "",
        {Points{
-           {fmt::format("The cheapest form is taken whose error is small: up to ΔE2000 {}, or for "
-                        "masking up to RMS {} of G₂. Where every form leaves more, the nearest is "
-                        "taken.",
-                        plain(side_by_side), plain(small_masking_error)),
+           {fmt::format(
+                "The cheapest form is taken whose error is small: up to ΔE2000 {}, or for "
+                "masking an RMS error of {} in G₂. Where every form leaves more, the nearest is "
+                "taken.",
+                plain(side_by_side), plain(small_masking_error)),
             fmt::format(
-                "Light that a diffuse form gives back is looked at from cosine {:g} on. A form "
-                "that reflects more than {} of it is left out. Where every form does, the one "
+                "A diffuse form's reflected light is computed from cosine {:g} on. A form that "
+                "reflects more than {} of the incoming light is left out. If all forms do, the one "
                 "that reflects least is taken, whatever its ΔE.",
                 least_diffuse_cosine, page::percent(no_light_made, 4)),
             "Among forms that take the same measured time, the nearest is taken, or the usual "
-            "shortcut itself. GGX and the split sum are judged by no threshold: they are "
+            "form itself. GGX and the split sum are judged by no threshold: they are "
             "what people ship.",
             "Colours of Fresnel forms are those of a rough surface under even light, beside a "
             "perfect "
@@ -347,19 +351,23 @@ std::string index_page_html(const ReportIndex& i) {
             "roughness "
             "is 0.1 or more. A metal's true colour is that of its spectrum; three wavelengths are "
             "650, 550 and 450 nm.",
-            "The split sum's ΔE is that of a display which shows a white ball at half of its "
-            "white.",
+            "For the split sum's ΔE the exposure gives a white ball half of the display's white.",
             "A ≤ is the greatest value at the roughnesses, views and points of a ball that were "
-            "looked at. Between them it may be more, most so under single lights.",
-            "Masking is compared with height-correlated Smith for GGX: RMS of G₂ over both "
-            "cosines from 0.05 to 1 and over roughness.",
+            "computed. Between them it may be more, most so under single lights.",
+            "Masking is compared with height-correlated Smith for GGX: the RMS error in G₂ "
+            "(masking "
+            "and shadowing together) over both cosines from 0.05 to 1 and over roughness.",
             "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on. For image-based "
             "light the reference is transport between the facets under even light. For single "
             "lights it is random walks, whose error is included, on a ball lit from 30° and from "
             "120° to the view.",
-            "Times are medians over several processes on this machine. A difference counts "
-            "where every process finds it, and finds it larger than its spread and than 3 % of "
-            "the time.",
+            "Bounces are compensated only where one bounce shows and where that gains ΔE2000 1 or "
+            "more.",
+            "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
+            "A cost is the median difference within a process.",
+            "Times are medians over several processes on this machine. A difference counts only "
+            "if every process measured it, each time larger than the spread and than 3 % of the "
+            "time.",
             "Compensations are timed in one process, one light and view at a time."}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;

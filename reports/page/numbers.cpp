@@ -71,7 +71,7 @@ std::string ratio_text(double ln) {
   return (ln < 0 ? "÷" : "×") + text;
 }
 std::string factor_text(double log_rms) {
-  return "×/\u2060÷\u202f" + ratio_text(std::abs(log_rms)).substr(std::string_view("×").size());
+  return "×/÷\u202f" + ratio_text(std::abs(log_rms)).substr(std::string_view("×").size());
 }
 std::string milliseconds_text(double ms) {
   return ms >= 1000 ? significant(ms / 1000) + "\u202fs" : significant(ms) + "\u202fms";

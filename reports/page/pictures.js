@@ -140,7 +140,7 @@ function read_cell(plot, d, x, y) {
   const range = (axis, length, names, k, edges) => names ? names[k] : [edges[k], edges[k + 1]].map((e) => read_text(axis, length === d.height ? 1 - e / length : e / length, 0.5 / length)).join("–");
   mark(d, `<path d="M${m.x[i]} ${m.y[j]}H${m.x[i + 1]}V${m.y[j + 1]}H${m.x[i]}z"/>`);
   d.readout.innerHTML = `${d.x_name} ${range(d.x, d.width, m.nx, i, m.x)}, ${plot.querySelector("text[transform^='translate']")?.textContent ?? ""} ${range(d.y, d.height, m.ny, j, m.y)}: `
-    + (q === 65535 ? "no value" : `<b>${q === 65534 ? "≥ " : kind === "log" && q === 0 ? "≤ " : ""}${tick_text(Number(value.toPrecision(3)))}</b>`);
+    + (q === 65535 ? "no value" : `<b>${q === 65534 ? "≥ " : kind === "log" && q === 0 ? "≤ " : ""}${tick_text(Number(value.toPrecision(kind === "log" && Math.abs(value - 1) < 0.1 ? 5 : 3)))}</b>`);
 }
 function stop_reading(plot) {
   const d = drawing_of(plot);

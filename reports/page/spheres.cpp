@@ -68,7 +68,7 @@ std::string sphere_figure(std::string_view caption,
 
 std::string sphere_keys(const DifferenceScale& s) {
   return fmt::format(
-      R"(<p class="small keys">{}{}{}{}{}<span>ΔE2000 up to {} nobody sees; up to {} only side by side</span></p>)",
+      R"(<p class="small keys">{}{}{}{}{}<span>nobody sees ΔE2000 up to {}; up to {} it shows only side by side</span></p>)",
       key(no_difference, "no difference"), key(at_limit, fmt::format("ΔE2000 {}", plain(s.limit))),
       key(beyond, fmt::format("above {}", plain(s.limit))), key(most, plain(s.max) + " or more"),
       s.hatched ? R"(<span><span class="step hatched"></span>the table has no value</span>)" : "",

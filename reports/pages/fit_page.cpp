@@ -146,12 +146,13 @@ Points warnings(const FitDocument& d,
         if (std::abs(x) > std::abs(most)) name = of, most = x;
     const auto here = log_rms_text(d.residuals.log_rms), there = log_rms_text(s.log_rms);
     if (std::abs(most) > 0.01)
-      warn(
-          "Where samples sit in their bins matters:",
-          fmt::format(
-              "at the {} of their bins, {} would change by {}{}.", s.other, name,
-              signed_percent(most),
-              here == there ? "" : fmt::format(", and the log RMS {} instead of {}", there, here)));
+      warn("Where samples sit in their bins matters:",
+           fmt::format(
+               "with samples at the {0} of their bins (--bins {0}), {1} would change by {2}{3}.",
+               s.other, name, signed_percent(most),
+               here == there
+                   ? ""
+                   : fmt::format(", and the log RMS would be {} instead of {}", there, here)));
   }
   for (auto& w : table_warnings(t, h, &d.warnings)) out.each.push_back(std::move(w));
   return out;
@@ -235,7 +236,7 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
                                         signed_percent(high)));
   };
   page::Table t{columns(fmt::format("|>value|>standard error|>95 % interval|status|{}interval "
-                                    "relative to the value, ±{}",
+                                    "around the value (the picture spans ±{})",
                                     with_truth ? ">truth|>off by|" : "", percent(reach))),
                 {},
                 "scroll parameters"};
@@ -272,7 +273,7 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
   Section out{
       "Parameters",
       fmt::format(
-          "Values are written to the second digit of their standard error. Intervals: {}{}.",
+          "Values are written to the second digit of their standard error. Standard errors: {}{}.",
           d.intervals, d.clusters > 0 ? fmt::format(" ({} clusters)", count_text(d.clusters)) : ""),
       {std::move(t)}};
   out.parts.emplace_back(Prose{

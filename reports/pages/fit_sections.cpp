@@ -1,6 +1,7 @@
 #include "reports/pages/fit_sections.h"
 
 #include <algorithm>
+#include <array>
 #include <numeric>
 
 #include "base/quantile.h"
@@ -58,7 +59,13 @@ std::string rho_text(double rho) {
 // --- Where the model is off ----------------------------------------------------------------------
 namespace {
 
-std::string map_words(const ResidualMap& m) {
+/// "0.7 %" or "a factor of 1.8": how far a mean ratio is from 1, by its logarithm.
+std::string size_text(double log_ratio) {
+  const double off = std::expm1(std::abs(log_ratio));
+  return off < 0.3 ? percent(off) : "a factor of " + significant(1 + off);
+}
+
+std::string map_words(const ResidualMap& m, double limit) {
   std::vector<double> sizes;
   std::size_t worst = m.mean.size();
   for (std::size_t k = 0; k < m.mean.size(); ++k)
@@ -73,26 +80,27 @@ std::string map_words(const ResidualMap& m) {
     return degrees_text((edges[i] + edges[i + 1]) / 2);
   };
   return fmt::format(
-      "{} cells: half of them within {}. The cell that is furthest off, noise and all: {} at "
-      "half-vector "
-      "angle {}, difference angle {}.",
-      count, factor_text(median(sizes)), ratio_text(m.mean[worst]),
-      middle(m.theta_h_deg, worst / nd), middle(m.theta_d_deg, worst % nd));
+      "{} cells: the median is within {}. In the worst, noise included, the model is {} too {}, "
+      "at half-vector angle {}, difference angle {}. The strongest colours stand for {} or more.",
+      count, size_text(median(sizes)), size_text(m.mean[worst]),
+      m.mean[worst] < 0 ? "dark" : "bright", middle(m.theta_h_deg, worst / nd),
+      middle(m.theta_d_deg, worst % nd), size_text(std::log(limit)));
 }
 
 }  // namespace
 
 Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures) {
   Choice c;
-  c.controls = {{"shown", "Shown", "mean ratio"}};
+  c.controls = {{"shown", "Shown", "model ÷ table"}};
   c.look = "";
   Slot slot;
+  double limit = 1;
   for (const bool mean : {true, false}) {
-    const auto* shown = mean ? "mean ratio" : "typical factor";
+    const auto* shown = mean ? "model ÷ table" : "typical factor";
     auto map = angle_map("residuals", {{"shown", shown}}, "theta_h", m.theta_h_deg, "theta_d",
                          m.theta_d_deg);
-    map.title = mean ? "Model over data" : "Typical factor between model and data";
-    map.value = mean ? "model/data, geometric mean of the cell" : "typical factor of the cell";
+    map.title = mean ? "Model ÷ table" : "Typical factor between model and table";
+    map.value = mean ? "model ÷ table, geometric mean of the cell" : "typical factor of the cell";
     map.scale = FigureMap::Scale::log;
     map.diverging = mean;
     map.begin = 1;
@@ -103,11 +111,12 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
                   return sizes;
                 }());
     for (const double v : logs) map.values.push_back(std::exp(v));
+    if (mean) limit = map.limit;
     slot.each.push_back({{shown}, {Shown{map.family, map.choices}}});
     pictures.maps.push_back(std::move(map));
   }
   c.slots.push_back(std::move(slot));
-  Group maps{"", {std::move(c), Prose{map_words(m), "small muted"}}}, bands{"bands", {}};
+  Group maps{"", {std::move(c), Prose{map_words(m, limit), "small muted"}}}, bands{"bands", {}};
   double most = 1e-12;
   for (const auto& b : d.residuals.bands)
     if (b.values > 0 && known(b.log_rms)) most = std::max(most, b.log_rms);
@@ -212,12 +221,15 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
   const bool has_error = data != h.albedo.end() && data->error > 0;
   std::string words =
-      fmt::format("The fitted model reflects most at θ_i {}: {} of the light{}.{}",
+      fmt::format("The fitted model reflects most at θ_i {}: {} of the light{}{}.{}",
                   degrees_text(p.theta_i_deg[at]), share(top),
                   known(p.data_albedo[at][channel])
                       ? fmt::format("; the table reflects {}{}", share(p.data_albedo[at][channel]),
-                                    has_error ? "\u202f±\u202f" + significant(data->error, 2) : "")
+                                    has_error ? fmt::format(" (its sum is off by {} at most)",
+                                                            significant(data->error, 2))
+                                              : "")
                       : "",
+                  several ? ", channel " + d.channels[channel] : "",
                   above(top) ? " Above 1 more light leaves than arrives: no surface "
                                "does that."
                              : "");
@@ -228,8 +240,8 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
     const auto [low, high] = std::ranges::minmax(ratios);
     const auto a = plain(low, 2), b = plain(high, 2);
     words += fmt::format(
-        " At the table's own samples the model peaks at {}{} times the table's greatest value{}.",
-        a == b ? "" : a + " to ", b, a == b ? "" : ", by channel");
+        " The model's greatest value at the table's samples is {}{} times the table's{}.",
+        a == b ? "" : a + " to ", b, a == b ? "" : " (by channel)");
   }
   const Shown picture{f.family, {}, 260};
   pictures.figures.push_back(std::move(f));
@@ -372,6 +384,25 @@ Section confidence(const FitDocument& d, Pictures& pictures) {
 }
 
 // --- Solver and input ----------------------------------------------------------------------------
+namespace {
+
+/// What a phase of a fit does, by its name in the document.
+std::string phase_words(std::string name) {
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 7> plain{
+      {{"load", "reading"},
+       {"digest", "hash of the file"},
+       {"columns", "angles"},
+       {"start", "first values"},
+       {"certificate", "search for better values"},
+       {"limits", "one-sided limits"},
+       {"physics", "albedo"}}};
+  if (name.ends_with("_ms")) name.resize(name.size() - 3);
+  const auto at = std::ranges::find(plain, name, [](const auto& p) { return p.first; });
+  return at == plain.end() ? words(name) : std::string(at->second);
+}
+
+}  // namespace
+
 Section solver(const FitDocument& d, Pictures& pictures) {
   const auto& s = d.solver;
   Group beside{"columns", {}};
@@ -400,10 +431,9 @@ Section solver(const FitDocument& d, Pictures& pictures) {
   if (total > 0) {
     page::Table t{columns("|>time|>share|"), {}, "scroll"};
     for (const auto& [phase, ms] : s.phase_ms) {
-      auto name = phase;
-      if (name.ends_with("_ms")) name.resize(name.size() - 3);
-      auto& row = t.rows.emplace_back(std::vector{Cell(words(name)), Cell(milliseconds_text(ms)),
-                                                  Cell(percent(ms / total)), Cell()});
+      auto& row =
+          t.rows.emplace_back(std::vector{Cell(phase_words(phase)), Cell(milliseconds_text(ms)),
+                                          Cell(percent(ms / total)), Cell()});
       row.back().mark = bar(ms / total);
     }
     beside.parts.emplace_back(

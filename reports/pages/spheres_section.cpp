@@ -97,7 +97,7 @@ Markup row_of(const Lights& shown, const Spheres& s, std::size_t m, std::string_
       return fmt::format("Sphere under {}, {}", l->light, what);
     };
     html += sphere_figure(
-        fmt::format("{}, half within ΔE {}", capital(l->light), delta_e_text(model.median)),
+        fmt::format("{}: median ΔE2000 {}", capital(l->light), delta_e_text(model.median)),
         s.pixels,
         {{l->table, of("table"), "table"},
          {model.picture, of(name.empty() ? s.models[m] : name), name.empty() ? "model" : name},
@@ -114,7 +114,7 @@ page::Table numbers(const Lights& shown, const Spheres& s, std::string_view name
   if (name.empty()) {
     t.head = columns("ΔE2000");
     for (const auto* l : shown)
-      for (const char* what : {", half below", ", 95\u202f% below"})
+      for (const char* what : {": median", ": 95th percentile"})
         t.head.push_back({l->light + what, true});
     for (std::size_t m = 0; m < s.models.size(); ++m) {
       auto& row =
@@ -127,9 +127,9 @@ page::Table numbers(const Lights& shown, const Spheres& s, std::string_view name
   const bool spacing = std::ranges::any_of(s.lights, [](const auto& l) {
     return !l.models.empty() && std::isfinite(l.models[0].spacing_median);
   });
-  t.head = columns(spacing ? "light|>covered|>ΔE2000, half below|>95\u202f% below|>spacing only, "
-                             "half below|>95\u202f% below"
-                           : "light|>covered|>ΔE2000, half below|>95\u202f% below");
+  t.head = columns(spacing ? "light|>covered|>ΔE2000: median|>95th percentile|>from spacing "
+                             "only: median|>95th percentile"
+                           : "light|>covered|>ΔE2000: median|>95th percentile");
   for (const auto& l : s.lights) {
     const auto of = [&](double ModelSphere::*what) {
       return l.models.empty() ? Cell("–") : text(l.models[0].*what);
@@ -149,12 +149,14 @@ std::string how(const Spheres& s) {
   return fmt::format(
       "Front light: three lights on the viewer's side. Rim light: one of these, and two from "
       "behind "
-      "the sphere. Flash: one, 10° above the viewer. White is the table's 99th percentile of "
-      "luminance under each light. Covered: share of the lit pixels for which the table has a "
+      "the sphere. Flash: one, 10° above the viewer. The table's 99th percentile of "
+      "luminance under each light is shown as white. Covered: share of the lit pixels for which "
+      "the table has a "
       "value. A grid is interpolated. A list shows its nearest sample, where both its "
       "directions are within {}°; samples mirrored at the plane of incidence, or with light and "
-      "view exchanged, also serve.{} Spacing only: the fit sampled at the table's directions and "
-      "interpolated as the table is, beside the fit itself.",
+      "view exchanged, also count.{} From spacing only: the fit sampled at the table's directions "
+      "and "
+      "interpolated as the table is, compared with the fit itself. The model has no part in it.",
       Spheres::reach_deg,
       colours
           ? std::string()

@@ -231,11 +231,11 @@ page::Section curves_section(const gonio::Table& t,
     return std::ranges::any_of(cuts, [&](const Cut& c) { return !(c.*of).empty(); });
   };
   out.text = fmt::format(
-      "Points are the table's samples{}{}, without the cosine.{}{}",
+      "Points: the table's samples{}. {}No value includes the cosine.{}{}",
       has(&Cut::at, "theta_i") && t.has_bins()
-          ? " (where the grid has them, interpolated in the other angles)"
+          ? ", at the angles of its grid (interpolated in the other angles)"
           : "",
-      with_model ? ", lines the fitted model" : "",
+      with_model ? "Lines: the fitted model. " : "",
       any(&Cut::uncertainty) ? " Bars are 95 % intervals by the stated uncertainties." : "",
       any(&Cut::left_out) ? " Samples called left out are those of --mask; no "
                             "fit reads them."
@@ -309,7 +309,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
                      significant(h.retro->height), degrees_text(h.retro->half_width_deg)));
   fact("copies", copies(h));
   if (h.peak && h.peak->bin_sensitivity)
-    fact("bin convention", fmt::format("{}; the other one would change the peak's alpha by {}",
+    fact("bin convention", fmt::format("{}; another would change the peak's alpha by {}",
                                        t.has_bins() ? name_of(t.grid()->bins) : "none",
                                        signed_percent(*h.peak->bin_sensitivity)));
   Group beside{"", {}};

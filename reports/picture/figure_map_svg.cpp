@@ -53,7 +53,12 @@ char kind_of(const FigureMap& m) {
 
 /// Number at a place of the scale of colours; its ends say where there are values beyond.
 std::string scale_text(const FigureMap& m, const ColourScale& colours, double at) {
-  const std::string text = tick_text(std::strtod(fmt::format("{:.3g}", at).c_str(), nullptr));
+  // A ratio near 1 needs the digits in which it differs from 1.
+  const double beside = m.diverging && m.begin > 0 ? std::abs(at / m.begin - 1) : 1;
+  const int digits =
+      beside > 0 && beside < 0.1 ? 1 - static_cast<int>(std::floor(std::log10(beside))) : 3;
+  const std::string text =
+      tick_text(std::strtod(fmt::format("{:.{}g}", at, std::min(digits, 6)).c_str(), nullptr));
   constexpr double rounding = 1e-9;
   const auto any = [&](auto beyond) { return std::ranges::any_of(m.values, beyond); };
   if (at == colours.high && any([&](double v) { return v > at * (1 + rounding); }))

@@ -39,7 +39,10 @@ void add_front(Pictures& p, const ScenesRows& r) {
   for (const auto& row : r.rows) {
     auto f = make_figure("front", {{"material", row.material}, {"light", row.light}});
     f.title = fmt::format("Accuracy against time: {} under {}", row.material, row.light);
-    f.note = "of the sets that nothing beats in both, down to an error of 0.001";
+    f.note =
+        "of the sets that nothing beats in both, down to an error of 0.001, on the points where "
+        "sets "
+        "are compared; plans are judged on others";
     f.x = {"time of one direction of light [ns]"};
     f.y = {"ΔE2000, upper bound at 99 % of the points", true};
     std::vector<const SceneFrontRow*> points;

@@ -93,12 +93,13 @@ void savings(Findings& to, const ScenesRows& r) {
                     scenes_text(these), these.size() == 1 ? "" : "up to ",
                     times_text(1 / slowest->speedup_float)));
     to.say(by_table ? "Only the tabulated light between facets keeps the tolerance there."
-                    : "No faster set of forms keeps the tolerance there.");
+                    : "No faster set of forms keeps the tolerance there with a plan's margin.");
   }
   to.headline = fmt::format(
       "Leaving out what nobody sees saves {} or more of a shader's time in half of {} scenes, and "
-      "up to {}.",
-      at_least(middle), held.size(), percent(all.back(), 2));
+      "up to {}.{}",
+      at_least(middle), held.size(), percent(all.back(), 2),
+      slower.empty() ? "" : fmt::format(" In {} scenes the plan takes longer.", slower.size()));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",
@@ -212,9 +213,9 @@ void verified(Findings& to, const ScenesRows& r) {
   const auto unknown = std::ranges::max(broken, {}, &SceneRow::reference_error)->reference_error;
   if (unknown > 0.5 * r.tolerance.limit)
     to.say(
-        fmt::format("The reference itself is known to ΔE2000 {:.2g} there, which counts in what "
+        fmt::format("The reference itself is known to ΔE2000 {} there, which counts in what "
                     "a plan differs by.",
-                    unknown));
+                    rounded_up(unknown)));
 }
 
 /// Materials of an asset that were not planned.

@@ -82,7 +82,7 @@ void say_errors(std::vector<std::string>& out, const scene::Plan& p, const std::
   };
   if (const auto* m = farthest(p, true)) {
     const auto& worst = *std::ranges::max_element(
-        p.materials, {}, [](const auto& each) { return each.bounded ? each.checked.worst : -1; });
+        p.materials, {}, [](const auto& each) { return each.checked.worst; });
     out.push_back(fmt::format(
         "At {} of the fresh points the plan differs by at most {}{}{}; the worst point differs by "
         "{}{}.",
@@ -353,8 +353,10 @@ std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
     return fmt::format("{} differs by {} at its worst point, where a plan may differ by {}", which,
                        rounded_up(f.error.worst), rounded_down(f.most_worst));
   return m.bounded
-             ? fmt::format("{} may exceed the limit at {} % of all points, a plan at {} %", which,
-                           rounded_up(100 * f.error.bound), rounded_down(100 * f.most_exceeding))
+             ? fmt::format(
+                   "{} may exceed the limit at {} % of all points. A plan keeps to {} %, so that a "
+                   "verification on other points agrees",
+                   which, rounded_up(100 * f.error.bound), rounded_down(100 * f.most_exceeding))
              : which + " exceeds the limit at too many points";
 }
 

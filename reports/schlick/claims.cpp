@@ -58,17 +58,18 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
       worst = &m;
   }
   if (!glass || !worst) return;
-  to.judge("Schlick's error is significantly less than that of other factors",
-           "Burley 2012, Physically-Based Shading at Disney",
-           verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
-           fmt::format("glass ΔE2000 {} against {} of masking",
-                       rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
-           fmt::format(
-               "the error of Unreal's joint masking is over twice Schlick's for {} dielectrics. "
-               "It is so for {} metals. For {} Schlick shows up to ΔE2000 {}, and that masking up "
-               "to {}.",
-               of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
-               rounded_up(shown_by_schlick(r, worst->material)), rounded_up(worst->delta_e)));
+  to.judge(
+      "Schlick's error is significantly less than that of other factors",
+      "Burley 2012, Physically-Based Shading at Disney",
+      verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
+      fmt::format("glass ΔE2000 {} against {} of masking",
+                  rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
+      fmt::format("the error of Unreal's joint form would have to be over twice that of Schlick's "
+                  "Fresnel. It is for {} dielectrics. It is for {} metals. For {} Schlick shows up "
+                  "to ΔE2000 {}, "
+                  "that form up to {}.",
+                  of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
+                  rounded_up(shown_by_schlick(r, worst->material)), rounded_up(worst->delta_e)));
 }
 
 void means_metal(Findings& to) {

@@ -77,8 +77,34 @@ std::vector<Clamp> clamps() {
        of(clamped), of(joint)}};
 }
 
+/// By how much the clamp changes a value, in double.
+double change_by(const Clamp& c, const Inputs& x) {
+  return std::abs(c.with(Number::double_, x) / c.without(Number::double_, x) - 1);
+}
+
+/// Factor, up to a step of the grids, by which the inputs that the clamp goes by may grow until it changes the value by less.
+double reach_of(const Clamp& c, const Inputs& x, double change) {
+  const auto at = [&](double factor) {
+    Inputs y = x;
+    if (c.by == "alpha")
+      y[0] *= factor;
+    else
+      for (const std::size_t k : {1U, 2U})
+        if (x[k] == std::min(x[1], x[2])) y[k] *= factor;
+    return y;
+  };
+  double low = 1, high = 1.6;
+  while (high - low > 1e-4) {
+    const double middle = (low + high) / 2;
+    (change_by(c, at(middle)) > change ? low : high) = middle;
+  }
+  return high;
+}
+
 ClampRow row_of(const Clamp& c, Number number) {
+  constexpr double little = 0.01;
   ClampRow row{c.name, c.where, c.by, std::string(name_of(number)), {}, {}, 0, 0, {}, 0};
+  std::vector<Inputs> last;  // of those that the clamp changes, farthest from 0
   for (const auto& given : c.inputs) {
     // As the number holds them, so that what is told is the formula's error and not its inputs'.
     Inputs x;
@@ -86,9 +112,12 @@ ClampRow row_of(const Clamp& c, Number number) {
     const double by = c.by == "alpha" ? x[0] : std::min(x[1], x[2]);
     if (by == 0) continue;
     const auto raise = [by](std::optional<double>& to) { to = std::max(to.value_or(0), by); };
-    const double exact = c.without(Number::double_, x), clamped = c.with(Number::double_, x);
-    const double change = std::abs(clamped / exact - 1);
-    if (change > 0.01) raise(row.changed_to);
+    const double exact = c.without(Number::double_, x), change = change_by(c, x);
+    if (change > little && by >= row.changed_to.value_or(0)) {
+      if (by > row.changed_to.value_or(0)) last.clear();
+      last.push_back(x);
+      raise(row.changed_to);
+    }
     row.changed_most = std::max(row.changed_most, change);
     const auto look = [&](double value, std::optional<double>& no_value, double& worst) {
       if (!std::isfinite(value))
@@ -99,6 +128,9 @@ ClampRow row_of(const Clamp& c, Number number) {
     look(c.without(number, x), row.no_value_without, row.worst_without);
     look(c.with(number, x), row.no_value_with, row.worst_with);
   }
+  double farther = 1;
+  for (const auto& x : last) farther = std::max(farther, reach_of(c, x, little));
+  if (row.changed_to) *row.changed_to *= farther;
   return row;
 }
 

@@ -58,7 +58,7 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   if (!cross) return;
   const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed");
   std::string answer = fmt::format(
-      "GGX in half precision stays within {} from {} on, if the shader computes |n × h|²{}.",
+      "D of GGX, by itself, stays within {} in half from {} on, if the shader computes |n × h|²{}.",
       percent(cross->tolerance, 1), from_text(*cross),
       flushed ? " and the processor keeps subnormals" : "");
   if (flushed) answer += fmt::format(" One that flushes them needs {}.", from_text(*flushed));
@@ -78,7 +78,7 @@ void which_alpha(Findings& to, const StabilityRows& r) {
                       h.least_f0, percent(h.tolerance, 2), rounded_up(*h.safe_from)));
       to.say(fmt::format("That is for light and view up to {:.0f}°.", h.zenith_deg));
       to.say(fmt::format("Below alpha {} the product is too large for half.",
-                         rounded_down(*h.finite_from)));
+                         rounded_up(*h.finite_from)));
     }
   struct Named {
     std::string_view name, id, form;

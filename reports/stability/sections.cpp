@@ -70,22 +70,23 @@ Section clamp_question(const StabilityRows& all) {
                     "proved from|take instead|>operations|by"),
             {},
             dense};
-    for (const auto& r : widths)
-      if (r.number == number)
-        t.add(form_cell(r.id), given(r.form), r.safe_from ? rounded_up(*r.safe_from) : "nowhere",
-              error_cell(r.worst_rel, place(r)), error_cell(r.worst_from_usual),
-              count_cell(r.nonfinite + r.overflow, r.nonfinite_at),
-              r.finite_from ? significant(*r.finite_from, 2) : "–",
-              !r.stable.empty()    ? form_text(r.stable)
-              : r.form == "cosine" ? "from |n × h|²"
-                                   : "–",
-              r.stable.empty() ? fmt::format("{}", r.operations)
-                               : fmt::format("{} → {}", r.operations, r.stable_operations),
-              evidence_text(r.evidence));
+    for (const auto& r : widths) {
+      if (r.number != number) continue;
+      const auto* better = better_form(widths, r);
+      t.add(form_cell(r.id), given(r.form), r.safe_from ? rounded_up(*r.safe_from) : "nowhere",
+            error_cell(r.worst_rel, place(r)), error_cell(r.worst_from_usual),
+            count_cell(r.nonfinite + r.overflow, r.nonfinite_at),
+            r.finite_from ? significant(*r.finite_from, 2) : "–",
+            better ? (better->id == r.id ? std::string("from |n × h|²") : form_text(better->id))
+                   : "–",
+            !better || r.stable.empty() ? fmt::format("{}", r.operations)
+                                        : fmt::format("{} → {}", r.operations, r.stable_operations),
+            evidence_text(r.evidence));
+    }
     slot.each.push_back({{number}, {std::move(t)}});
   }
   return {"Which alpha is safe",
-          "From this alpha on, every input that was looked at keeps the tolerance: 2 % in half and "
+          "From this alpha on, every input that was tried keeps the tolerance: 2 % in half and "
           "mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. Inputs count as exact: a NoH that is "
           "rounded to half on its way adds an error of its own, as ggx.mobile shows in mixed "
           "numbers. The pointer shows the worst input, also in bits. “From 0.05 on” is the worst "
@@ -277,6 +278,16 @@ Section every_form(const StabilityRows& all) {
 }  // namespace gonio::page
 
 namespace gonio {
+
+const StabilityRow* better_form(const std::vector<StabilityRow>& all, const StabilityRow& r) {
+  const auto at = std::ranges::find_if(all, [&](const StabilityRow& x) {
+    return x.number == r.number && x.form == "cross" &&
+           x.id == (r.stable.empty() ? r.id : r.stable);
+  });
+  const bool better =
+      at != all.end() && at->safe_from && (!r.safe_from || *at->safe_from < *r.safe_from);
+  return better ? &*at : nullptr;
+}
 
 page::Page report_page(const StabilityReport& r) {
   using namespace page;

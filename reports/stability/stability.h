@@ -135,6 +135,9 @@ struct StabilityOptions {
 StabilityRows stability_rows(const StabilityOptions&, const ReportProgress& done = {});
 std::vector<HighlightRow> highlight_rows();
 std::vector<ClampRow> clamp_rows();
+/// Row of the form to take in place of r's, with NoH from a cross product: one that is safe from a smaller alpha in the same
+/// number; null: none is.
+const StabilityRow* better_form(const std::vector<StabilityRow>&, const StabilityRow& r);
 std::vector<AnyGpuRow> any_gpu_rows(const StabilityOptions&);
 std::vector<OrderRow> order_rows(const StabilityOptions&);
 std::vector<StabilityRows::ByAlpha> errors_by_alpha(bool all);

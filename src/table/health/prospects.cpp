@@ -167,8 +167,8 @@ Prospect kd(const Health& h, const Survey& s) {
       : tail < 2.0 / 3 ? weakly
                        : no,
       fmt::format(
-          "far from the highlight, at theta_h = {2:.0f}°, values are {0:.3g} 1/sr; a GGX tail of "
-          "the highlight would make {1:.3g} % of that",
+          "far from the highlight, at theta_h = {2:.0f}°, values are {0:.3g} 1/sr; the highlight's "
+          "tail, if GGX, would be {1:.3g} % of them",
           base, 100 * tail, h.peak->base_deg));
 }
 
@@ -203,8 +203,8 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format("{}; an error common to all values of one angle shows from 8 angles on, or "
-                      "from two for each free parameter",
+          fmt::format("{}; an error common to all values of one angle shows only with 8 angles or "
+                      "more, or with two for each free parameter",
                       counted(n, "incident angle"))};
 }
 

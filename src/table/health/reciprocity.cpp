@@ -113,9 +113,9 @@ Reciprocity reciprocity(const Table& t) {
       });
   if (partners == Partners::none) {
     const bool half = t.grid() && t.grid()->kind == Grid::Kind::half_difference;
-    return {
-        {},
-        half ? "the layout holds each reciprocal pair once" : "no sample has a reciprocal partner"};
+    return {{},
+            half ? "cannot be checked: the layout holds each reciprocal pair once"
+                 : "no sample has a reciprocal partner"};
   }
   if (errors.empty()) return {{}, "no valid value has a valid partner"};
   const auto note = fmt::format("median over {}{}", counted(errors.size(), "value"),

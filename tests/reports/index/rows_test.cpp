@@ -81,9 +81,10 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
       kulla = std::max(kulla, s.delta_e + s.error);
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(row.error, fmt::format("{} (no form leaves less; one bounce: {})", up_to(kulla),
+  EXPECT_EQ(row.error, fmt::format("{} (no single form leaves less; one bounce: {})", up_to(kulla),
                                    at_most(nothing)));
-  EXPECT_NE(row.unless.find("F0 is 0.04: one bounce, ΔE ≤ 1.4"), row.unless.npos) << row.unless;
+  EXPECT_NE(row.unless.find("F0 is 0.04: then one bounce, ΔE ≤ 1.4"), row.unless.npos)
+      << row.unless;
 }
 
 TEST(IndexRow, OfPlasticCompensatesNothingThatNobodySees) {
@@ -102,7 +103,7 @@ TEST(IndexRow, OfPlasticCompensatesNothingThatNobodySees) {
   r.compensations = {c};
   const auto row = of(decisions(facts(r)), "Multiple scattering under single lights");
   EXPECT_EQ(row.take_id, "scattering.kulla_conty");
-  EXPECT_EQ(row.unless, "F0 is 0.04: one bounce, ΔE ≤ 2.6") << "2.5 with it: nobody sees that";
+  EXPECT_EQ(row.unless, "F0 is 0.04: then one bounce, ΔE ≤ 2.6") << "2.5 with it: nobody sees that";
 }
 
 TEST(IndexRow, OfTheSplitSumSaysWhatMostOfASphereShows) {
@@ -121,7 +122,8 @@ TEST(IndexRow, OfTheSplitSumSaysWhatMostOfASphereShows) {
   const auto row = of(decisions(facts(r)), "Image-based light");
   EXPECT_EQ(row.error, fmt::format("mean ΔE ≤ 2.5 head on, {} at 60°", at_most(most)));
   EXPECT_EQ(row.unless,
-            "rims are looked at: integrate; the split sum's mean ΔE reaches 34 at cosine 0.1");
+            "the rim matters: then integrate over directions; the split sum's mean ΔE there "
+            "reaches 34 (cosine 0.1)");
 }
 
 TEST(IndexRow, OfImageBasedLightIsThatOfAlbedos) {
@@ -187,7 +189,8 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
       << "Disney's is nearer, and makes more light than any";
   EXPECT_EQ(below.error,
             up_to(5.2) + "; reflects at most 140\u00a0% of the light (Lambert: 191\u00a0%)");
-  EXPECT_EQ(below.unless, "up to 220\u00a0% of the light may leave: Disney's diffuse, ΔE ≤ 1")
+  EXPECT_EQ(below.unless,
+            "you accept up to 220\u00a0% of reflected light: then Disney's diffuse, ΔE ≤ 1")
       << "the nearest of them, and what it gains";
 }
 
@@ -205,14 +208,14 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   auto all = facts(r);
   join(all, facts(timed({"ggx/smith_ggx.correlated/schlick", "gtr/smith_gtr.correlated/schlick"})));
   const auto row = of(decisions(all), "Distribution");
-  EXPECT_EQ(row.error, fmt::format("typically ×/÷ {:.3g} beside published fits (median), which "
-                                   "have a longer tail for 17 of 20 "
-                                   "materials",
-                                   std::exp(0.395)));  // between the tenth and the eleventh
+  EXPECT_EQ(row.error,
+            fmt::format("typically ×/÷ {:.3g} from published fits (the median; 17 "
+                        "of 20 materials have a longer tail by their published exponent)",
+                        std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(
       row.unless,
       fmt::format(
-          "γ is fitted (median 1.5, where it is determined): GTR with its own Smith, typically "
+          "you fit γ, too (median 1.5 of those determined): then GTR with its own Smith, typically "
           "×/÷ {:.3g}, +0.10 ns",
           std::exp(0.1475)))
       << "the error and the time of one model";
@@ -232,7 +235,7 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   EXPECT_EQ(row.error,
             "≤ 2.2\u00a0% on metal, light and view up to 88° (F0 of 0.5 or more; a search found no "
             "larger error, which is no proof)");
-  EXPECT_EQ(row.cost, "smoother surfaces render as roughness 0.2");
+  EXPECT_EQ(row.cost, "all below roughness 0.2 is drawn as 0.2");
   r.highlights[0].safe_from.reset();
   EXPECT_EQ(of(decisions(facts(r)), "Precision").take, "float instead");
 }

@@ -308,7 +308,7 @@ TEST(ScenesFindings, BlameTheTableOnlyWhereAPlanKeepsIt) {
   EXPECT_EQ(at[2],
             "Plans take longer than all that the material has, for the material that needs "
             "everything under rim light: 1.4 times as long.");
-  EXPECT_EQ(at[3], "No faster set of forms keeps the tolerance there.");
+  EXPECT_EQ(at[3], "No faster set of forms keeps the tolerance there with a plan's margin.");
 }
 
 TEST(ScenesFindings, CountWhatIsKept) {
@@ -349,7 +349,7 @@ TEST(ScenesFindings, SayWhichPlansDoNotHold) {
            "On fresh points 2 of 3 plans do not hold: chalk under front light and under rim "
            "light."));
   const std::string why =
-      "The reference itself is known to ΔE2000 0.96 there, which counts in what a plan differs by.";
+      "The reference itself is known to ΔE2000 0.97 there, which counts in what a plan differs by.";
   EXPECT_FALSE(says(findings(r), why));
   r.rows[1].reference_error = 0.9635;
   EXPECT_TRUE(says(findings(r), why));

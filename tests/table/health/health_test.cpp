@@ -174,7 +174,7 @@ TEST(Reciprocity, IsAbsentWhereTheLayoutHoldsEachPairOnce) {
   for (const Table& t : {merl_example(), slice_example()}) {
     const auto h = inspect(t);
     EXPECT_FALSE(h.reciprocity_error);
-    EXPECT_EQ(h.reciprocity_note, "the layout holds each reciprocal pair once");
+    EXPECT_EQ(h.reciprocity_note, "cannot be checked: the layout holds each reciprocal pair once");
   }
 }
 
