@@ -371,6 +371,26 @@ TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
   }
 }
 
+TEST(Undetermined, WhatStandsAtABoundIsUnboundedWhereOnlyAMisfitLeavesItOpen) {
+  const auto truth =
+      test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.5,kd=0", 1);
+  const Table t = synthesize(truth, {.layout = Layout::random, .samples = 200, .noise = 0});
+  FitOptions o;
+  o.model = to_text(truth.model.spec);
+  const Problem p = pose(t, o);
+  const auto data = fit_data<double>(Sampling(t, Bins::centre, Metric::log, 0, false));
+  Fitted f = minimise(p, data, truth, no_huber);
+  f.groups = data.groups;
+  for (const bool widened : {false, true}) {
+    Uncertainty u(3);
+    for (auto& v : u.verdicts) v.std_error = 1e-6, v.t = 2, v.freedom = 100, v.variance = 1e-12;
+    u[0].status = ParameterStatus::at_bound, u[0].variance = 1e9;
+    find_undetermined(p, data, f, counted, widened, u);
+    EXPECT_EQ(u[0].status, widened ? ParameterStatus::unbounded : ParameterStatus::not_identifiable)
+        << u[0].reason;
+  }
+}
+
 TEST(Undetermined, AMisfitThatLeavesOneValueOfALobeOpenBoundsNoneOfThem) {
   const auto truth = test::bind("lambert+beckmann/smith_beckmann.correlated/schlick",
                                 "alpha=0.2,f0=0.05,kd=0.3", 1);
