@@ -594,6 +594,7 @@ const beside_fit = (model, table) => (model.fit?.file === table.name && model.fi
 function show_facts() {
   const model = items[active], lines = [];
   if (is_model(model)) {
+    lines.push(`${label(model)} takes ${model.about.operations} operations a sample, in ${model.channels.length} ${model.channels.length === 1 ? "channel" : "channels"}.`);
     const of = (dashed) => albedos.curves.find((c) => c.item === model && Boolean(c.dashed) === dashed), all = of(false), white = of(true);
     if (all && white) {
       const at = nearest(albedo_angles, view.theta);

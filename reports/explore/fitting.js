@@ -174,7 +174,7 @@ function comparison_panel(d) {
   });
   const head = make("tr", {}, ...["model", "typical factor on unseen angles", "of the fit", "BIC", "free"].map((t) => make("th", { scope: "col" }, t)));
   return [make("h2", {}, `Models compared on ${d.file}`), ...(d.recommended ? [make("p", {}, d.none_fits ? "None fits; the nearest is " : "Take ", make("b", {}, d.recommended), `. ${d.reason ?? ""}`)] : []),
-    ...d.beware.map((w) => line("Beware", w)), ...d.as_good.map((m) => line("As good", m)), ...d.disagreement.map((w) => line("But", w)),
+    ...d.beware.map((w) => line("Beware", w)), ...d.as_good.map((m) => line("As good", m)), ...d.disagreement.map((w) => line("But", w)), ...(d.offset > 0 ? [make("p", {}, `These factors count values from ${shown(d.offset)} 1/sr on. A fit's own factor counts smaller ones in full.`)] : []),
     make("div", { class: "scroll" }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))), make("p", { class: "muted" }, "The program adds the colour difference of a rendered sphere and the speed of each: ", make("code", {}, d.command)), ...saver(d.id, `${d.file}.models.json`)];
 }
 let panel = "";
@@ -204,7 +204,7 @@ async function compare_models() {
   const text = await ask({ do: "models", file: table.name, models: ["all"], options: words }, await files_of(table)), d = JSON.parse(text);
   const behind = (m) => m.cv_log_rms ?? m.log_rms ?? Infinity, short = (x) => (Number.isFinite(x) ? Number(x.toPrecision(6)) : null);
   documents.set(id, text);
-  compared = { id, file: table.name, recommended: d.recommended ?? "", none_fits: d.none_fits, reason: d.reason ?? "", as_good: d.as_good, disagreement: d.disagreement, beware: [...d.beware, ...d.warnings],
+  compared = { id, file: table.name, recommended: d.recommended ?? "", none_fits: d.none_fits, reason: d.reason ?? "", offset: d.log_offset, as_good: d.as_good, disagreement: d.disagreement, beware: [...d.beware, ...d.warnings],
     rows: d.models.sort((a, b) => behind(a) - behind(b)).map((m) => [m.model, m.note ?? "", short(m.cv_log_rms), short(m.log_rms), short(m.bic), short(m.parameters)]),
     command: command_of(table.name, table.data.columns, "", { ...words }).replace("--model ''", "--models all").replace("-o fit.json", "-o models.json") };
   finish(), say("Compared.");

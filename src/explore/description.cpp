@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "brdf/catalogue/registry.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/model/model_names.h"
 #include "brdf/model/presets.h"
 #include "brdf/model/roughness.h"
@@ -58,6 +59,7 @@ std::string Surface::description() const {
               {"name", model_names(std::span(&called, 1)).front()},
               {"channels", m->model.channels},
               {"anisotropic", m->model.anisotropic},
+              {"operations", operations_of(m->model).total()},
               {"parts", parts},
               {"parameters", parameters}}
       .dump();

@@ -54,23 +54,4 @@ std::vector<double> map_in(Number number, std::size_t map, std::span<const doubl
   return map_over_wide(map, parameters);
 }
 
-TermOperations operations_of(std::size_t term) {
-  using C = Counted<double>;
-  // Formulas have no branches: any values are as good as these.
-  std::vector<C> p;
-  for (const auto& q : catalogue()[term].parameters) p.push_back(C(q.start));
-  const C c(0.5);
-  const FrameAngles<C> angles{{c, c, c, c, c}, c, c, c, c, c, c};
-  const auto f = any_function<C>(term);
-  TermOperations cost;
-  cost.parameters = count_operations([&] { f.rows(p, {}, nullptr); });
-  Quotient<C> q;
-  cost.fraction = count_operations([&] { q = f(p, angles); });
-  for (std::size_t k = 0; k < operation_names.size(); ++k)
-    cost.fraction.by_kind[k] -= cost.parameters.by_kind[k];
-  cost.sample = cost.fraction;
-  cost.sample += count_operations([&] { q.value(); });
-  return cost;
-}
-
 }  // namespace gonio

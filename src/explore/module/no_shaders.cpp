@@ -1,9 +1,11 @@
 // What a page has not: files of shaders, and kernels for the functions in them. Everything that
 // would read one is refused by name.
 #include "base/error.h"
+#include "brdf/function/any_function.h"
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/own_files.h"
 #include "foreign/function.h"
+#include "number/counted.h"
 
 namespace gonio::foreign {
 
@@ -27,6 +29,11 @@ bool names_own_file(std::string_view) {
 std::vector<OwnFile> own_files(const std::vector<std::string>&, const std::string&) {
   return {};
 }
+template <>
+void foreign_rows(const ForeignTerm&,
+                  std::span<const Counted<double>>,
+                  std::span<const FrameAngles<Counted<double>>>,
+                  Quotient<Counted<double>>*) {}
 
 }  // namespace gonio
 
