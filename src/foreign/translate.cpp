@@ -9,6 +9,7 @@
 #include <optional>
 #include <utility>
 
+#include "foreign/arithmetic.h"
 #include "foreign/glsl_functions.h"
 #include "foreign/spirv_words.h"
 
@@ -25,16 +26,6 @@ struct Variable {
   Parts parts, latest;
   std::vector<Ref> where, written;  ///< masks; `written`: lanes that ever stored
   int depth;                        ///< of the call that it belongs to
-};
-
-/// A value, or a pointer to `offset` of a variable.
-struct Value {
-  Id type = 0;
-  Parts parts{};
-  int variable = -1;
-  std::size_t offset = 0;
-  Ref guard = nothing;  ///< lanes that these parts belong to; none: all
-  Parts others{};       ///< for lanes beside those: they left a loop before
 };
 
 struct Edge {
@@ -109,13 +100,6 @@ class Translator {
   // ---- values and variables
   // -----------------------------------------------------------------------
 
-  Kind kind(Id type) const {
-    const auto op = m.leaf(type).op;
-    return op == spv::OpTypeBool  ? Kind::truth
-           : op == spv::OpTypeInt ? Kind::integer
-                                  : Kind::number;
-  }
-  Kind kind_of(Ref r) const { return r < 0 ? Kind::number : p[r].kind; }
   int new_variable(Id type, Parts parts, int depth) {
     if (variables_.size() >= most_variables) p.refuse("more than 100000 variables");
     const Ref stored = parts.empty() ? p.truth(false) : p.truth(true);
@@ -133,7 +117,7 @@ class Translator {
   }
   Parts bound(const std::string& name, Id type) {
     const SpirvType& t = m.type(type);
-    if (t.op != spv::OpTypeStruct) return bind_(p, name, m.size(type), kind(type));
+    if (t.op != spv::OpTypeStruct) return bind_(p, name, m.size(type), kind(m, type));
     Parts all;
     for (std::size_t k = 0; k < t.members.size(); ++k) {
       const Parts part = bound(m.member_name(type, k), t.members[k]);
@@ -156,7 +140,7 @@ class Translator {
             : t.width == 64
                 ? std::bit_cast<double>(i.in[0] | static_cast<std::uint64_t>(i.in[1]) << 32)
                 : static_cast<double>(std::bit_cast<float>(i.in[0]));
-        globals_[i.id] = {i.type, {p.constant(v, kind(i.type))}};
+        globals_[i.id] = {i.type, {p.constant(v, kind(m, i.type))}};
         return;
       }
       case spv::OpConstantComposite: {
@@ -170,7 +154,7 @@ class Translator {
       }
       case spv::OpConstantNull:
       case spv::OpUndef:
-        globals_[i.id] = {i.type, Parts(m.size(i.type), p.constant(0, kind(i.type)))};
+        globals_[i.id] = {i.type, Parts(m.size(i.type), p.constant(0, kind(m, i.type)))};
         return;
       case spv::OpVariable:
         globals_[i.id] = global_variable(i);
@@ -194,25 +178,6 @@ class Translator {
       parts.assign(m.size(held), nothing);
     return {held, {}, new_variable(held, parts, 0)};
   }
-  int whole(Ref r) const {
-    if (r < 0 || !p[r].known) p.refuse("an integer or an index that depends on the sample");
-    if (!(std::abs(p[r].value) < 0x1p31)) p.refuse("an integer beyond 32 bits");
-    return static_cast<int>(p[r].value);
-  }
-  Value step(Value q, int k) {
-    const SpirvType& t = m.type(q.type);
-    const auto count = static_cast<int>(t.op == spv::OpTypeStruct ? t.members.size() : t.count);
-    if (k < 0 || k >= count) p.refuse("an index out of bounds");
-    if (t.op == spv::OpTypeStruct) {
-      for (int j = 0; j < k; ++j) q.offset += m.size(t.members[static_cast<std::size_t>(j)]);
-      q.type = t.members[static_cast<std::size_t>(k)];
-    } else {
-      q.offset += static_cast<std::size_t>(k) * m.size(t.element);
-      q.type = t.element;
-    }
-    return q;
-  }
-
   // ---- masks
   // ---------------------------------------------------------------------------------------
 
@@ -230,21 +195,13 @@ class Translator {
   Ref lanes_here(const Frame& fr, const Variable& v) {
     return v.depth == fr.depth ? fr.now : p(Op::both, fr.outer, fr.now);
   }
-  Ref choose(Ref mask, Ref a, Ref b, Kind k) {
-    if (a == b || b == nothing || p.is(mask, 1)) return a;
-    if (a == nothing || p.is(mask, 0)) return b;
-    if (k == Kind::integer) p.refuse("an integer that depends on the sample");
-    if (k == Kind::truth)
-      return p(Op::either, p(Op::both, mask, a), p(Op::both, p(Op::inverse, mask), b));
-    return p(Op::select, mask, a, b);
-  }
   Ref load(const Frame& fr, Variable& v, std::size_t k) {
     const Ref here = lanes_here(fr, v);
     if (v.latest.at(k) >= 0 && implies(here, v.where[k])) return v.latest[k];
     const Ref all = v.parts[k];
-    if (all < 0 && v.latest[k] >= 0 && kind_of(v.latest[k]) == Kind::integer)
+    if (all < 0 && v.latest[k] >= 0 && kind_of(p, v.latest[k]) == Kind::integer)
       p.refuse("an integer that depends on the sample");
-    if (all < 0 || implies(here, v.written[k]) || kind_of(all) != Kind::number) return all;
+    if (all < 0 || implies(here, v.written[k]) || kind_of(p, all) != Kind::number) return all;
     const Note note{p.line,
                     "a variable is read that not every branch wrote: no number where none did"};
     if (std::ranges::find(notes_, note.line, &Note::line) == notes_.end()) notes_.push_back(note);
@@ -256,11 +213,11 @@ class Translator {
     for (std::size_t k = 0; k < parts.size(); ++k) {
       const std::size_t at = to.offset + k;
       Ref& held = v.parts.at(at);
-      const bool is_integer = parts[k] >= 0 && kind_of(parts[k]) == Kind::integer;
+      const bool is_integer = parts[k] >= 0 && kind_of(p, parts[k]) == Kind::integer;
       if (is_integer && held != parts[k] && !p.is(here, 1))
         held = nothing;  // in each lane another: none can be read
       else
-        held = held < 0 ? parts[k] : choose(here, parts[k], held, kind_of(parts[k]));
+        held = held < 0 ? parts[k] : choose(p, here, parts[k], held, kind_of(p, parts[k]));
       v.latest[at] = parts[k];
       v.where[at] = here;
       if (parts[k] >= 0) v.written[at] = p(Op::either, v.written[at], here);
@@ -293,8 +250,8 @@ class Translator {
     r.parts = fr.returned.back().second;
     for (std::size_t k = fr.returned.size() - 1; k-- > 0;)
       for (std::size_t j = 0; j < r.parts.size(); ++j)
-        r.parts[j] =
-            choose(fr.returned[k].first, fr.returned[k].second[j], r.parts[j], kind_of(r.parts[j]));
+        r.parts[j] = choose(p, fr.returned[k].first, fr.returned[k].second[j], r.parts[j],
+                            kind_of(p, r.parts[j]));
     return r;
   }
 
@@ -320,9 +277,10 @@ class Translator {
       v.guard = fr.now;  // lanes that left the loop keep what they had
       const Parts& before = old->second.guard >= 0 ? old->second.others : old->second.parts;
       for (std::size_t k = 0; k < v.parts.size(); ++k) {
-        const bool differs = kind_of(v.parts[k]) == Kind::integer && v.parts[k] != before.at(k);
-        v.others.push_back(differs ? nothing
-                                   : choose(fr.now, v.parts[k], before.at(k), kind_of(v.parts[k])));
+        const bool differs = kind_of(p, v.parts[k]) == Kind::integer && v.parts[k] != before.at(k);
+        v.others.push_back(
+            differs ? nothing
+                    : choose(p, fr.now, v.parts[k], before.at(k), kind_of(p, v.parts[k])));
       }
     }
     fr.values[id] = std::move(v);
@@ -357,7 +315,7 @@ class Translator {
           Parts r = edges.back().phi.at(i.id);
           for (std::size_t k = edges.size() - 1; k-- > 0;)
             for (std::size_t j = 0; j < r.size(); ++j)
-              r[j] = choose(edges[k].mask, edges[k].phi.at(i.id).at(j), r[j], kind(i.type));
+              r[j] = choose(p, edges[k].mask, edges[k].phi.at(i.id).at(j), r[j], kind(m, i.type));
           set(fr, i.id, {i.type, r}, again);
           break;
         }
@@ -371,7 +329,7 @@ class Translator {
           break;
         }
         case spv::OpSwitch: {
-          const int on = whole(parts(fr, in[0]).at(0));
+          const int on = whole(p, parts(fr, in[0]).at(0));
           Id to = in[1];
           for (std::size_t k = 2; k + 1 < in.size(); k += 2)
             if (static_cast<int>(in[k]) == on) to = in[k + 1];
@@ -406,7 +364,8 @@ class Translator {
         case spv::OpAccessChain:
         case spv::OpInBoundsAccessChain: {
           Value q = get(fr, in[0]);
-          for (std::size_t k = 1; k < in.size(); ++k) q = step(q, whole(parts(fr, in[k]).at(0)));
+          for (std::size_t k = 1; k < in.size(); ++k)
+            q = step(p, m, q, whole(p, parts(fr, in[k]).at(0)));
           fr.values[i.id] = q;
           break;
         }
@@ -423,7 +382,8 @@ class Translator {
           break;
         }
         default:
-          set(fr, i.id, compute(fr, i), again);
+          set(fr, i.id, compute(p, m, i, [&](Id id) -> const Value& { return get(fr, id); }),
+              again);
       }
     }
   }
@@ -452,223 +412,6 @@ class Translator {
     }
     if (n == "gonio_pow") return value(power(p, argument(0), argument(1)));
     return {};
-  }
-
-  Value compute(Frame& fr, const Instruction& i) {
-    const auto in = i.in;
-    Value r{i.type};
-    const auto at = [&](std::size_t k) -> const Parts& { return parts(fr, in[k]); };
-    const auto each = [&](auto f) {
-      const Parts a = at(0);
-      for (const Ref x : a) r.parts.push_back(f(x));
-      return r;
-    };
-    const auto pairs = [&](auto f) {
-      const Parts a = at(0), b = at(1);
-      for (std::size_t k = 0; k < a.size(); ++k) r.parts.push_back(f(a[k], b.at(k)));
-      return r;
-    };
-    const auto by = [&](Op op) { return pairs([&](Ref a, Ref b) { return p(op, a, b); }); };
-    const auto turned = [&](Op op) { return pairs([&](Ref a, Ref b) { return p(op, b, a); }); };
-    const auto integers = [&](auto f) {
-      return pairs([&](Ref a, Ref b) {
-        const auto v = f(static_cast<std::int64_t>(whole(a)), static_cast<std::int64_t>(whole(b)));
-        return p.constant(static_cast<double>(static_cast<std::int32_t>(v)), kind(i.type));
-      });
-    };
-    switch (i.op) {
-      case spv::OpFAdd:
-        return by(Op::add);
-      case spv::OpFSub:
-        return by(Op::sub);
-      case spv::OpFMul:
-        return by(Op::mul);
-      case spv::OpFDiv:
-        return by(Op::div);
-      case spv::OpFMod:
-        return pairs([&](Ref a, Ref b) {
-          return p(Op::sub, a, p(Op::mul, b, p(Op::floor, p(Op::div, a, b))));
-        });
-      case spv::OpFNegate:
-        return each([&](Ref a) { return p(Op::neg, a); });
-      case spv::OpVectorTimesScalar:
-      case spv::OpMatrixTimesScalar: {
-        const Ref s = at(1).at(0);
-        return each([&](Ref a) { return p(Op::mul, a, s); });
-      }
-      case spv::OpDot:
-        r.parts = {dot(p, Parts(at(0)), Parts(at(1)))};
-        return r;
-      case spv::OpMatrixTimesVector: {
-        const Parts a = at(0), v = at(1);
-        const std::size_t rows = m.size(i.type);
-        for (std::size_t k = 0; k < rows; ++k)
-          r.parts.push_back(dot(p, a, v, k, 0, v.size(), rows));
-        return r;
-      }
-      case spv::OpVectorTimesMatrix: {
-        const Parts v = at(0), a = at(1);
-        for (std::size_t k = 0; k < m.size(i.type); ++k)
-          r.parts.push_back(dot(p, v, a, 0, k * v.size(), v.size()));
-        return r;
-      }
-      case spv::OpMatrixTimesMatrix: {
-        const Parts a = at(0), b = at(1);
-        const std::size_t rows = m.size(m.type(i.type).element), inner = a.size() / rows;
-        for (std::size_t c = 0; c < m.type(i.type).count; ++c)
-          for (std::size_t k = 0; k < rows; ++k)
-            r.parts.push_back(dot(p, a, b, k, c * inner, inner, rows));
-        return r;
-      }
-      case spv::OpTranspose: {
-        const Parts a = at(0);
-        const std::size_t columns = m.size(m.type(i.type).element), rows = a.size() / columns;
-        for (std::size_t c = 0; c < rows; ++c)
-          for (std::size_t k = 0; k < columns; ++k) r.parts.push_back(a.at(k * rows + c));
-        return r;
-      }
-      case spv::OpFOrdLessThan:
-      case spv::OpFUnordLessThan:
-        return by(Op::less);
-      case spv::OpFOrdGreaterThan:
-      case spv::OpFUnordGreaterThan:
-        return turned(Op::less);
-      case spv::OpFOrdLessThanEqual:
-      case spv::OpFUnordLessThanEqual:
-        return by(Op::less_equal);
-      case spv::OpFOrdGreaterThanEqual:
-      case spv::OpFUnordGreaterThanEqual:
-        return turned(Op::less_equal);
-      case spv::OpFOrdEqual:
-      case spv::OpFUnordEqual:
-        return by(Op::equal);
-      case spv::OpFOrdNotEqual:
-      case spv::OpFUnordNotEqual:
-        return pairs([&](Ref a, Ref b) { return p(Op::inverse, p(Op::equal, a, b)); });
-      case spv::OpIsNan:
-        return each([&](Ref a) { return p(Op::inverse, p(Op::equal, a, a)); });
-      case spv::OpIsInf:
-        return each([&](Ref a) {
-          return p(Op::either, p(Op::equal, a, p.constant(INFINITY)),
-                   p(Op::equal, a, p.constant(-INFINITY)));
-        });
-      case spv::OpLogicalAnd:
-        return by(Op::both);
-      case spv::OpLogicalOr:
-        return by(Op::either);
-      case spv::OpLogicalNot:
-        return each([&](Ref a) { return p(Op::inverse, a); });
-      case spv::OpLogicalEqual:
-        return pairs([&](Ref a, Ref b) { return choose(a, b, p(Op::inverse, b), Kind::truth); });
-      case spv::OpLogicalNotEqual:
-        return pairs([&](Ref a, Ref b) { return choose(a, p(Op::inverse, b), b, Kind::truth); });
-      case spv::OpAny:
-      case spv::OpAll: {
-        const Parts a = at(0);
-        Ref s = a.at(0);
-        for (const Ref x : a) s = p(i.op == spv::OpAny ? Op::either : Op::both, s, x);
-        r.parts = {s};
-        return r;
-      }
-      case spv::OpSelect: {
-        const Parts c = at(0), a = at(1), b = at(2);
-        for (std::size_t k = 0; k < a.size(); ++k)
-          r.parts.push_back(choose(c.at(c.size() == 1 ? 0 : k), a[k], b.at(k), kind(i.type)));
-        return r;
-      }
-      case spv::OpCompositeConstruct:
-        for (std::size_t k = 0; k < in.size(); ++k)
-          r.parts.insert(r.parts.end(), at(k).begin(), at(k).end());
-        return r;
-      case spv::OpCompositeExtract: {
-        Value q{get(fr, in[0]).type};
-        for (std::size_t k = 1; k < in.size(); ++k) q = step(q, static_cast<int>(in[k]));
-        for (std::size_t k = 0; k < m.size(i.type); ++k) r.parts.push_back(at(0).at(q.offset + k));
-        return r;
-      }
-      case spv::OpCompositeInsert: {
-        Value q{i.type};
-        for (std::size_t k = 2; k < in.size(); ++k) q = step(q, static_cast<int>(in[k]));
-        r.parts = at(1);
-        for (std::size_t k = 0; k < at(0).size(); ++k) r.parts.at(q.offset + k) = at(0)[k];
-        return r;
-      }
-      case spv::OpVectorShuffle:
-        for (std::size_t k = 2; k < in.size(); ++k)
-          r.parts.push_back(in[k] < at(0).size() ? at(0)[in[k]] : at(1).at(in[k] - at(0).size()));
-        return r;
-      case spv::OpVectorExtractDynamic: {
-        const int k = whole(at(1).at(0));
-        if (k < 0 || k >= static_cast<int>(at(0).size())) p.refuse("an index out of bounds");
-        r.parts = {at(0)[static_cast<std::size_t>(k)]};
-        return r;
-      }
-      case spv::OpCopyObject:
-      case spv::OpFConvert:
-      case spv::OpUConvert:
-      case spv::OpSConvert:
-        r.parts = at(0);
-        return r;
-      case spv::OpConvertSToF:
-      case spv::OpConvertUToF:
-        return each([&](Ref a) { return p.constant(whole(a)); });
-      case spv::OpConvertFToS:
-      case spv::OpConvertFToU:
-      case spv::OpBitcast:
-        return each([&](Ref a) { return p.constant(whole(a), kind(i.type)); });
-      case spv::OpIAdd:
-        return integers([](auto a, auto b) { return a + b; });
-      case spv::OpISub:
-        return integers([](auto a, auto b) { return a - b; });
-      case spv::OpIMul:
-        return integers([](auto a, auto b) { return a * b; });
-      case spv::OpSDiv:
-      case spv::OpUDiv:
-        return integers([](auto a, auto b) { return b ? a / b : 0; });
-      case spv::OpSMod:
-      case spv::OpUMod:
-      case spv::OpSRem:
-        return integers([](auto a, auto b) { return b ? a % b : 0; });
-      case spv::OpSNegate:
-        return each(
-            [&](Ref a) { return p.constant(-static_cast<double>(whole(a)), Kind::integer); });
-      case spv::OpSLessThan:
-      case spv::OpULessThan:
-        return integers([](auto a, auto b) { return a < b; });
-      case spv::OpSLessThanEqual:
-      case spv::OpULessThanEqual:
-        return integers([](auto a, auto b) { return a <= b; });
-      case spv::OpSGreaterThan:
-      case spv::OpUGreaterThan:
-        return integers([](auto a, auto b) { return a > b; });
-      case spv::OpSGreaterThanEqual:
-      case spv::OpUGreaterThanEqual:
-        return integers([](auto a, auto b) { return a >= b; });
-      case spv::OpIEqual:
-        return integers([](auto a, auto b) { return a == b; });
-      case spv::OpINotEqual:
-        return integers([](auto a, auto b) { return a != b; });
-      case spv::OpUndef:
-        r.parts.assign(m.size(i.type), nothing);
-        return r;
-      case spv::OpExtInst:
-        return extended(fr, i);
-      case spv::OpDPdx:
-      case spv::OpDPdy:
-      case spv::OpFwidth:
-        p.refuse("a derivative by pixels (dFdx, dFdy or fwidth)");
-      default:
-        if (i.op >= spv::OpSampledImage && i.op <= spv::OpImageQuerySamples)
-          p.refuse("a texture is read");
-        p.refuse("instruction " + std::to_string(i.op) + ", which no function of numbers needs");
-    }
-  }
-
-  Value extended(Frame& fr, const Instruction& i) {
-    if (!m.is_glsl450(i.in[0])) p.refuse("functions of another set than GLSL.std.450");
-    std::vector<Parts> arguments;
-    for (std::size_t k = 2; k < i.in.size(); ++k) arguments.push_back(parts(fr, i.in[k]));
-    return {i.type, glsl_function(p, i.in[1], arguments)};
   }
 };
 

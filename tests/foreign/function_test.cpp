@@ -1,37 +1,16 @@
-// Functions of people's files: which arguments are directions, what is guessed, what is refused and
-// at which line.
+// Functions of people's files: their parameters, what is refused and at which line.
 #include "foreign/function.h"
 
 #include <cmath>
-#include <numbers>
 
 #include "base/sha256.h"
-#include "foreign/compile.h"
-#include "refusal.h"
-#include "support.h"
+#include "foreign/written.h"
 
 namespace gonio::foreign {
 namespace {
 
 using test::Folder;
 using test::refusal;
-
-#define SKIP_WITHOUT_SHADERS \
-  if (!can_compile()) GTEST_SKIP() << "this build reads no shaders"
-
-/// The function of a text that is written to a file first.
-struct Written {
-  Folder folder;
-  std::string path;
-  explicit Written(const std::string& text, const std::string& name = "my.glsl")
-      : path(folder.write(name, text)) {}
-  Function function(const std::string& rest = "") const {
-    return read_function(parse_name(path + rest));
-  }
-  std::string refused(const std::string& rest = "", Exit code = Exit::bad_input) const {
-    return refusal([&] { function(rest); }, code);
-  }
-};
 
 TEST(Function, BoundsAreReadAsGonioWritesThem) {
   SKIP_WITHOUT_SHADERS;
@@ -43,70 +22,6 @@ TEST(Function, BoundsAreReadAsGonioWritesThem) {
   EXPECT_TRUE(f.parameters[0].bounded);
   EXPECT_EQ(f.parameters[0].range.low, 0.05);
   EXPECT_EQ(f.parameters[0].range.high, 0.5);
-}
-
-TEST(Function, CosinesAreKnownByTheirUsualNames) {
-  SKIP_WITHOUT_SHADERS;
-  for (const std::string noh :
-       {"NoH", "NdotH", "dotNH", "n_dot_h", "NH", "HdotN", "costhetah", "cos_theta_m"}) {
-    const Written w("// alpha 0.01 1 0.2\nfloat D(float " + noh + ", float alpha) { return " + noh +
-                    " * alpha; }\n");
-    const auto f = w.function();
-    EXPECT_EQ(f.stands, Stands::distribution) << noh;
-    ASSERT_EQ(f.parameters.size(), 1U) << noh;
-    EXPECT_EQ(f.parameters[0].name, "alpha");
-    EXPECT_EQ(f.parameters[0].start, 0.2);
-    EXPECT_EQ(f.line, 2);
-  }
-}
-
-TEST(Function, DirectionsAreKnownWhateverSpaceTheirNamesSay) {
-  SKIP_WITHOUT_SHADERS;
-  for (const auto& [n, l, v] :
-       {std::array<std::string, 3>{"normalWS", "lightDirectionWS", "viewDirectionWS"},
-        {"world_normal", "to_light", "eyeVec"},
-        {"nrm", "lightVector", "view_dir_vs"}}) {
-    const Written w("float f(vec3 " + n + ", vec3 " + l + ", vec3 " + v + ") { return dot(" + n +
-                    ", normalize(" + l + " + " + v + ")); }\n");
-    const auto f = w.function();
-    EXPECT_TRUE(f.parameters.empty()) << n << f.parameters[0].name;
-    ASSERT_EQ(f.arguments.size(), 3U);
-    EXPECT_EQ(f.arguments[1].stands_for, "L") << l;
-  }
-}
-
-TEST(Function, ARoleIsAParametersAndARefusalNamesAllRoles) {
-  SKIP_WITHOUT_SHADERS;
-  const Written w(
-      "// k 0 1 0.5\nfloat f(vec3 L, vec3 V, vec3 N, vec3 t, float k) { return t.x * k * dot(N, "
-      "normalize(L + V)); }\n");
-  EXPECT_EQ(w.function("{argument.k=f0;argument.t=basecolor}").parameters.size(), 2U);
-  EXPECT_HAS(w.refused("{argument.k=colour}", Exit::usage),
-             "of a parameter its role: f0, alpha, roughness, smoothness");
-}
-
-TEST(Function, AVisibilityOfAnyNameIsMaskingAndADiffuseFormIsNot) {
-  SKIP_WITHOUT_SHADERS;
-  const auto stands = [](const std::string& value) {
-    return Written("float cloth_term(float NoV, float NoL) { return " + value + "; }\n")
-        .function()
-        .stands;
-  };
-  EXPECT_EQ(stands("0.25 / (NoL + NoV - NoL * NoV)"), Stands::masking);
-  EXPECT_EQ(stands("1.0 / (NoL + NoV - NoL * NoV)"), Stands::masking) << "its 4 stands elsewhere";
-  EXPECT_EQ(stands("0.25 * (2.0 - pow(1.0 - NoL, 5.0)) * (1.0 - pow(1.0 - NoV, 5.0))"),
-            Stands::lobe);
-}
-
-TEST(Function, AnArgumentIsWhatItsReaderSays) {
-  SKIP_WITHOUT_SHADERS;
-  const Written w("// k 0 1\nfloat D(float c, float k) { return c * k; }\n");
-  EXPECT_EQ(w.function().parameters.size(), 2U);  // c is one, too
-  const auto f = w.function("{argument.c=noh}");
-  EXPECT_EQ(f.parameters.size(), 1U);
-  EXPECT_EQ(f.stands, Stands::distribution);
-  EXPECT_HAS(w.refused("{argument.d=noh}", Exit::usage), "no argument 'd'");
-  EXPECT_HAS(w.refused("{argument.c=up}", Exit::usage), "expected nol, nov");
 }
 
 TEST(Function, AColourThatEachChannelReadsForItselfIsOneParameter) {
@@ -163,62 +78,6 @@ TEST(Function, AnExplorersFileHasItsBoundsAndItsBoolsAreKnown) {
   EXPECT_HAS(Written("::begin parameters\n::end parameters\n", "a.brdf").refused(), "no shader");
 }
 
-TEST(Function, WhatAValueIncludesIsGuessedAndSaid) {
-  SKIP_WITHOUT_SHADERS;
-  const std::string head = "// kd 0 1 0.5\nfloat f(vec3 L, vec3 V, vec3 N, float kd) { return ";
-  const auto includes = [&](const std::string& body, const std::string& rest = "") {
-    return Written(head + body + "; }\n").function(rest).includes;
-  };
-  EXPECT_EQ(includes("kd / 3.14159265358979"), "nothing");
-  EXPECT_EQ(includes("kd / 3.14159265358979 * dot(N, L)"), "cosine");
-  EXPECT_EQ(includes("kd"), "pi");
-  EXPECT_EQ(includes("kd * dot(N, L)"), "cosine,pi");
-  EXPECT_EQ(includes("kd", "{includes=nothing}"), "nothing");
-  const auto f = Written(head + "kd * dot(N, L); }\n").function();
-  const std::array<double, 11> angles{0.5, 0.7, 0.8, 0.8, 0.36, 0, 0.6, 0.2, 0.3, 0.1, 0.4};
-  EXPECT_NEAR(value_of(f, {0.6}, angles)[0], 0.6 / std::numbers::pi, 1e-15);
-}
-
-/// A diffuse part and a highlight that has three times too much, as many old shaders have it.
-std::string diffuse_and_phong(const std::string& kd, const std::string& over) {
-  return "// n 1 200 30\n// kd 0 " + kd +
-         " 0.3\n// ks 0 1 0.4\nvec3 f(vec3 L, vec3 V, vec3 N, vec3 kd, vec3 ks, float n) {\n"
-         "  return kd" +
-         over + " + ks * (n + 2.0) * 0.5" + over +
-         " * pow(max(dot(N, normalize(L + V)), 0.0), n);\n}\n";
-}
-
-TEST(Function, PiIsGuessedByOneColourAtATimeWhateverItsBounds) {
-  SKIP_WITHOUT_SHADERS;
-  for (const std::string high : {"1", "0.5"}) {
-    EXPECT_EQ(Written(diffuse_and_phong(high, " / 3.14159265358979")).function().includes,
-              "nothing")
-        << high;
-    EXPECT_EQ(Written(diffuse_and_phong(high, "")).function().includes, "pi") << high;
-  }
-  EXPECT_FALSE(Written(diffuse_and_phong("1", "")).function().unclear);
-  const auto f =
-      Written("// ks 0 1 0.1\nfloat f(vec3 L, vec3 V, vec3 N, float ks) { return ks * 0.6; }\n")
-          .function();
-  EXPECT_EQ(f.includes, "nothing");
-  EXPECT_TRUE(f.unclear) << "an albedo of 1.9 is near neither 1 nor π";
-}
-
-TEST(Function, AHelperTakesNoDirectionAndAnAlbedoNoLight) {
-  SKIP_WITHOUT_SHADERS;
-  const auto helper = Written("float sqr(float x) { return x * x; }\n").function();
-  EXPECT_FALSE(takes_direction(helper));
-  EXPECT_EQ(helper.includes, "nothing");
-  const auto tangent = Written("vec3 to_linear(vec3 x) { return x * x; }\n").function();
-  EXPECT_FALSE(takes_direction(tangent));
-  const auto albedo = Written(
-                          "// f0 0 1 0.04\nvec3 env(vec3 f0, float NoV) { return f0 + (1.0 - f0) * "
-                          "exp(-9.0 * NoV); }\n")
-                          .function();
-  EXPECT_TRUE(takes_direction(albedo));
-  EXPECT_FALSE(takes_light(albedo));
-}
-
 TEST(Function, VariablesThatItDoesNotReadAreNoArguments) {
   SKIP_WITHOUT_SHADERS;
   const Written w(
@@ -234,139 +93,6 @@ TEST(Function, AStructOfFourNumbersIsNoColour) {
       "x.b = dot(N, V); x.c = 1.0; x.d = 1.0; return x; }\n"
       "float f(float NoL, float NoV, float NoH) { return 0.1 * NoL; }\n");
   EXPECT_EQ(list_functions(w.path).size(), 1U);
-}
-
-TEST(Function, MaskingIsGOrVByItsValueAlongTheNormal) {
-  SKIP_WITHOUT_SHADERS;
-  const Written w(
-      "// k 0 1 0.2\nfloat G1(float c, float k) { return c / (c * (1.0 - k) + k); }\nfloat "
-      "G_Smith(float NoL, float NoV, float k) { return G1(NoL, k) * G1(NoV, k); }\nfloat "
-      "V_Smith(float "
-      "NoL, float NoV, float k) { return G_Smith(NoL, NoV, k) / (4.0 * NoL * NoV); }\n");
-  const std::array<double, 11> angles{0.5, 0.7, 0.8, 0.8, 0.36, 0, 0.6, 0.2, 0.3, 0.1, 0.4};
-  const auto g = w.function(":G_Smith"), v = w.function(":V_Smith");
-  EXPECT_TRUE(g.is_g);
-  EXPECT_FALSE(v.is_g);
-  EXPECT_NEAR(value_of(g, {0.2}, angles)[0], value_of(v, {0.2}, angles)[0], 1e-15);
-}
-
-TEST(Function, TurningTheSurfaceIsNoticed) {
-  SKIP_WITHOUT_SHADERS;
-  const std::string head = "float f(vec3 L, vec3 V, vec3 N, vec3 X) { return ";
-  EXPECT_TRUE(Written(head + "0.1 + 0.1 * dot(X, L) * dot(X, V); }\n").function().anisotropic);
-  EXPECT_FALSE(Written(head + "0.1 + 0.1 * dot(L, V); }\n").function().anisotropic);
-}
-
-/// Slopes of two widths, by cosines with the tangent frame.
-std::string two_widths(const std::string& bounds) {
-  return bounds +
-         "float D(vec3 N, vec3 H, vec3 X, vec3 Y, float ax, float ay) {\n  float x = dot(X, H) / "
-         "ax, y = dot(Y, H) / ay, z = dot(N, H), s = x * x + y * y + z * z;\n  return 1.0 / "
-         "(3.14159265358979 * ax * ay * s * s);\n}\n";
-}
-
-TEST(Function, TwoWidthsThatHaveOneDefaultAreTwoWidths) {
-  SKIP_WITHOUT_SHADERS;
-  for (const auto* bounds : {"", "// ax 0.05 1 0.3\n// ay 0.05 1 0.3\n"}) {
-    const auto f = Written(two_widths(bounds)).function();
-    EXPECT_TRUE(f.anisotropic) << bounds;
-    EXPECT_EQ(f.stands, Stands::distribution);
-  }
-  EXPECT_FALSE(Written(two_widths("")).function("{ax=0.3;ay=0.3}").anisotropic);
-  const auto turned = Written(
-      "// turn 0 1 0\nfloat f(vec3 N, vec3 L, vec3 V, vec3 X, float turn) { return 0.1 + (turn > "
-      "0.98 ? dot(X, L) * dot(X, V) : 0.0); }\n");
-  EXPECT_TRUE(turned.function().anisotropic) << "at an end alone";
-}
-
-TEST(Function, AHighlightThatIsBlackAtItsDefaultHasACosineNonetheless) {
-  SKIP_WITHOUT_SHADERS;
-  const auto f = Written(
-                     "// ks 0 1 0\nfloat f(vec3 L, vec3 V, vec3 N, float ks) { return ks / "
-                     "3.14159265358979 * dot(N, L); }\n")
-                     .function();
-  EXPECT_EQ(f.includes, "cosine");
-}
-
-TEST(Function, ACosineIsSeenThoughAnotherTermIsNotReciprocal) {
-  SKIP_WITHOUT_SHADERS;
-  const auto includes = [](const std::string& times) {
-    return Written(
-               "// tint 0 1 0.2\n// metallic 0 1 0\nfloat f(float NoL, float NoV, float NoH, "
-               "float tint, float metallic) { float f0 = mix(0.04, tint, metallic); return (f0 "
-               "+ (1.0 - f0) * pow(1.0 - NoV, 5.0)) * 0.2 * NoH" +
-               times + "; }\n")
-        .function()
-        .includes;
-  };
-  EXPECT_EQ(includes(" * NoL"), "cosine") << "F takes NoV, and is 1 where F0 is";
-  EXPECT_EQ(includes(""), "nothing");
-}
-
-TEST(Function, ARoughHighlightThatLosesLightDoesNotHideAFactorOfPi) {
-  SKIP_WITHOUT_SHADERS;
-  const auto includes = [](const std::string& norm, const std::string& kd, const std::string& nol) {
-    return Written(
-               "// roughness 0.05 1 0.5\n// kd 0 1 0.5\n// f0 0 1 0.04\nvec3 f(vec3 N, vec3 L, "
-               "vec3 V, float roughness, vec3 kd, vec3 f0) {\n  vec3 H = normalize(L + V);\n"
-               "  float NoL = dot(N, L), NoV = dot(N, V), NoH = dot(N, H), a = roughness * "
-               "roughness, d = NoH * NoH * (a * a - 1.0) + 1.0;\n"
-               "  return (" +
-               kd +
-               " + a * a / (d * d) * 0.5 / (NoL * (NoV * (1.0 - a) + a) + NoV * (NoL * (1.0 - "
-               "a) + a)) * (f0 + (1.0 - f0) * pow(1.0 - dot(L, H), 5.0)) / " +
-               norm + ")" + nol + ";\n}\n")
-        .function()
-        .includes;
-  };
-  EXPECT_EQ(includes("1.0", "kd", " * NoL"), "cosine,pi");
-  EXPECT_EQ(includes("1.0", "kd", ""), "pi");
-  EXPECT_EQ(includes("3.14159265", "kd / 3.14159265", ""), "nothing");
-  EXPECT_EQ(includes("3.14159265", "kd", ""), "nothing") << "a slip of the diffuse part";
-}
-
-TEST(Function, AMetalsHighlightAndADiffusePartOfOneColourAreLookedAtEach) {
-  SKIP_WITHOUT_SHADERS;
-  const auto f = Written(
-                     "// albedo 0 1 0.5\n// metallic 0 1 0\nvec3 f(vec3 N, vec3 L, vec3 V, vec3 "
-                     "albedo, float metallic) {\n  float NoH = dot(N, normalize(L + V)), d = NoH * "
-                     "NoH * (0.01 - 1.0) + 1.0;\n  return albedo * (1.0 - metallic) + metallic * "
-                     "albedo * 0.01 / (3.14159265 * d * d) / (4.0 * dot(N, L) * dot(N, V));\n}\n")
-                     .function();
-  EXPECT_EQ(f.includes, "nothing") << "1/π is missing from the diffuse part alone";
-}
-
-TEST(Function, ADiffuseFactorWithoutAColourHasPi) {
-  SKIP_WITHOUT_SHADERS;
-  const auto f = Written(
-                     "float diffuse(float NoL, float NoV, float LoH, float roughness) {\n  float g "
-                     "= 2.0 * LoH * LoH * roughness - 0.5;\n  return (1.0 + g * pow(1.0 - NoL, "
-                     "5.0)) * (1.0 + g * pow(1.0 - NoV, 5.0));\n}\n")
-                     .function();
-  EXPECT_EQ(f.includes, "pi");
-}
-
-TEST(Function, MaskingOfTwoWidthsIsMasking) {
-  SKIP_WITHOUT_SHADERS;
-  const auto f =
-      Written(
-          "// at 0.05 1 0.2\n// ab 0.05 1 0.5\nfloat V_Smith(float at, float ab, float "
-          "ToV, float BoV, float ToL, float BoL, float NoV, float NoL) {\n  return 0.5 / "
-          "(NoL * length(vec3(at * ToV, ab * BoV, NoV)) + NoV * length(vec3(at * ToL, ab "
-          "* BoL, NoL)));\n}\n")
-          .function();
-  EXPECT_EQ(f.stands, Stands::masking);
-  EXPECT_FALSE(f.is_g);
-  EXPECT_TRUE(f.anisotropic);
-}
-
-TEST(Function, AVisibilityThatLacksItsFourIsNoG) {
-  SKIP_WITHOUT_SHADERS;
-  EXPECT_FALSE(
-      Written("float V_Cloth(float NoV, float NoL) { return 1.0 / (NoL + NoV - NoL * NoV); "
-              "}\n")
-          .function()
-          .is_g);
 }
 
 TEST(Function, DeclarationsBetweenStagesAreReadHoweverTheyAreWritten) {

@@ -1,0 +1,100 @@
+#include "foreign/compiled_file.h"
+
+#include <algorithm>
+#include <mutex>
+#include <stdexcept>
+#include <utility>
+
+#include "base/error.h"
+#include "base/numbers.h"
+#include "foreign/compile.h"
+#include "foreign/function.h"
+
+#include <fmt/format.h>
+
+namespace gonio::foreign {
+
+[[noreturn]] void refuse(const std::string& file, const Refused& r) {
+  throw bad_input(file, r.line > 0 ? fmt::format("line {}", r.line) : "the whole file", r.what(),
+                  "a function of numbers that ends");
+}
+
+namespace {
+
+/// OpTypeStruct
+constexpr std::uint32_t spirv_struct = 30;
+
+std::mutex files_mutex;
+std::map<std::string, std::shared_ptr<const Compiled>>& files() {
+  static std::map<std::string, std::shared_ptr<const Compiled>> all;
+  return all;
+}
+
+/// Functions that give a number or a colour; the last of those that share a name.
+std::map<std::string, Id> functions_of(const SpirvModule& m) {
+  std::map<std::string, Id> all;
+  for (const auto& [id, f] : m.functions()) {
+    const auto name = m.short_name(id);
+    if (name.starts_with("gonio_") || name.empty() || name == "main") continue;
+    const bool is_value = m.is_of_numbers(f.result) && m.type(f.result).op != spirv_struct;
+    const auto op_size = is_value ? m.size(f.result) : 0;
+    if (op_size == 1 || op_size == 3 || op_size == 4) all[name] = id;
+  }
+  return all;
+}
+
+/// Line of the first array of a text with more elements than are taken, which a module names without its line; 0: none.
+int line_of_array(std::string_view text) {
+  constexpr double most = 4096;
+  int line = 1;
+  for (std::size_t k = 0; k < text.size(); ++k) {
+    if (text[k] == '\n') ++line;
+    if (text[k] != '[') continue;
+    const auto close = std::min(text.find(']', k), text.size());
+    if (number_from<double>(text.substr(k + 1, close - k - 1)).value_or(0) > most) return line;
+  }
+  return 0;
+}
+
+std::shared_ptr<const Compiled> compiled(Source source) {
+  auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr, {}});
+  try {
+    c->module = std::make_unique<SpirvModule>(compile(c->source));
+    c->functions = functions_of(*c->module);
+  } catch (const Refused& r) {
+    refuse(c->source.path, r.line > 0 ? r : Refused(r.what(), line_of_array(c->source.text)));
+  } catch (const std::out_of_range&) {
+    throw bad_input(c->source.path, "the whole file", "SPIR-V that refers to what it has not",
+                    "a module of functions");
+  }
+  return c;
+}
+
+}  // namespace
+
+std::shared_ptr<const Compiled> file_of(const std::string& path) {
+  const std::lock_guard lock(files_mutex);
+  auto& known = files()[path];
+  if (!known) known = compiled(read_source(path));
+  return known;
+}
+
+[[noreturn]] void refuse_nameless(const Compiled& c, const std::string& path) {
+  throw bad_input(
+      path, "the whole file", "no function that gives a number or a colour",
+      c.source.language == Language::spirv
+          ? "one with its name: some compilers leave names out, as glslang does with -g0"
+          : "one");
+}
+
+std::string sha256_of(const std::string& file) {
+  return file_of(file)->source.sha256;
+}
+
+void provide(const std::string& file, const std::string& content) {
+  auto made = compiled(source_of(file, content));
+  const std::lock_guard lock(files_mutex);
+  files()[file] = std::move(made);
+}
+
+}  // namespace gonio::foreign

@@ -1,0 +1,31 @@
+#pragma once
+/// \file
+/// Files of functions, each compiled once in a run.
+
+#include <map>
+#include <memory>
+#include <string>
+
+#include "foreign/program.h"
+#include "foreign/source.h"
+#include "foreign/spirv_module.h"
+
+namespace gonio::foreign {
+
+/// OpTypePointer
+inline constexpr std::uint32_t spirv_pointer = 32;
+
+struct Compiled {
+  Source source;
+  std::unique_ptr<const SpirvModule> module;
+  std::map<std::string, Id> functions;  ///< that give a number or a colour, by name
+};
+
+/// The file, compiled once in a run.  \throws Error  bad input
+std::shared_ptr<const Compiled> file_of(const std::string& path);
+
+[[noreturn]] void refuse(const std::string& file, const Refused&);
+/// Refuses a file without a function that can be named.
+[[noreturn]] void refuse_nameless(const Compiled&, const std::string& path);
+
+}  // namespace gonio::foreign

@@ -1,0 +1,105 @@
+// What a function stands for, by its names and its values.
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "foreign/directions.h"
+#include "foreign/guesses.h"
+
+namespace gonio::foreign {
+
+bool reads_angle(const Function& f, std::string_view name) {
+  return std::ranges::any_of(f.programs,
+                             [&](const Program& p) { return reads(p, true, angle(name)); });
+}
+
+std::vector<double> defaults_of(const Function& f) {
+  std::vector<double> v;
+  for (const auto& p : f.parameters) v.push_back(p.start);
+  return v;
+}
+
+std::array<double, 11> angles_between(double theta_l, double phi, double theta_v, double turn) {
+  const std::array l{std::sin(theta_l) * std::cos(phi + turn),
+                     std::sin(theta_l) * std::sin(phi + turn), std::cos(theta_l)};
+  const std::array v{std::sin(theta_v) * std::cos(turn), std::sin(theta_v) * std::sin(turn),
+                     std::cos(theta_v)};
+  std::array<double, 3> h{l[0] + v[0], l[1] + v[1], l[2] + v[2]};
+  const double size = std::hypot(h[0], h[1], h[2]);
+  for (double& x : h) x /= size;
+  return {l[2], v[2], h[2], size / 2, h[0] * h[0] + h[1] * h[1], h[0], h[1],
+          l[0], l[1], v[0], v[1]};
+}
+
+bool differ(double a, double b) {
+  return std::abs(a - b) > 1e-6 * std::max(std::abs(a), std::abs(b));
+}
+
+namespace {
+
+/// True of a value that is 1/4 along the normal, or 1 where the 4 stands elsewhere, and only grows towards the horizon: V.
+bool gives_v(const Function& f) {
+  const auto p = defaults_of(f);
+  double last = 0;
+  for (const double theta : {0.0, 0.5, 1.0, 1.3, 1.5}) {
+    const double v = value_of(f, p, angles_between(theta, 0, theta, 0))[0];
+    if (theta == 0 && differ(v, 0.25) && differ(v, 1)) return false;
+    if (!(v > last)) return false;
+    last = v;
+  }
+  return true;
+}
+
+}  // namespace
+
+Stands stands_for(const Function& f) {
+  const bool l = reads_angle(f, "nol"), v = reads_angle(f, "nov"), facing = reads_angle(f, "voh");
+  bool frame = false;
+  for (std::size_t k = angle("xol"); k < angle_names.size(); ++k)
+    frame |= reads_angle(f, angle_names[k]);
+  const bool half = reads_angle(f, "noh") || reads_angle(f, "sin2_theta_h") ||
+                    reads_angle(f, "xoh") || reads_angle(f, "yoh");
+  if (half && !l && !v && !facing && !frame) return Stands::distribution;
+  if (facing && !l && !v && !half && !frame) return Stands::fresnel;
+  const std::string n = plain(f.name.function);
+  const bool named = n.starts_with("v") || n.starts_with("g") || n.find("smith") != n.npos ||
+                     n.find("visib") != n.npos || n.find("geom") != n.npos ||
+                     n.find("mask") != n.npos || n.find("shadow") != n.npos;
+  // Of two widths it takes the cosines with the tangent, too; what takes vectors may be a whole
+  // model.
+  const bool of_cosines = std::ranges::none_of(f.arguments, [](const Argument& a) {
+    return a.stands_for == "L" || a.stands_for == "V" || a.stands_for == "H";
+  });
+  const bool may_be = (l || v) && (!frame || (of_cosines && !half && !facing)) &&
+                      f.programs.size() == 1 && n.find("diffuse") == n.npos;
+  return may_be && (named || (l && v && of_cosines && !half && !facing && gives_v(f)))
+             ? Stands::masking
+             : Stands::lobe;
+}
+
+bool gives_fresnel(const Function& f) {
+  const bool l = reads_angle(f, "nol"), v = reads_angle(f, "nov");
+  if (l == v) return false;
+  for (std::size_t k = 0; k < angle_names.size(); ++k)
+    if (angle_names[k] != (l ? "nol" : "nov") && reads_angle(f, angle_names[k])) return false;
+  const auto& said = f.name.reading.arguments;
+  if (std::ranges::any_of(f.arguments, [&](const Argument& a) {
+        return a.stands_for != "parameter" && (a.stands_for.size() == 1 || said.contains(a.name));
+      }))
+    return false;
+  const std::string n = plain(f.name.function);
+  const bool is_fresnel = n.find("fresnel") != n.npos || n.find("schlick") != n.npos;
+  if (!is_fresnel && std::ranges::none_of(f.arguments, [](const Argument& a) {
+        return a.stands_for != "parameter" && plain(a.name).starts_with("cos");
+      }))
+    return false;
+  const auto at = [&](double c) {
+    const double theta = std::acos(c);
+    return value_of(f, defaults_of(f), angles_between(theta, 0, theta, 0))[0];
+  };
+  constexpr double grazing = 1e-6, same = 1e-3, middle = 0.5;
+  return std::abs(at(grazing) - 1) < same && at(1) < 1 - same && at(1) >= 0 &&
+         at(middle) < 1 + same;
+}
+
+}  // namespace gonio::foreign
