@@ -39,15 +39,21 @@ void print(std::size_t values, const FitResiduals& r) {
 }
 
 Exit run_terms(const CompareCall& o) {
-  if (!o.set.empty() || o.bins || o.measured.mask || o.measured.aperture || o.measured.reference ||
+  if (o.bins || o.measured.mask || o.measured.aperture || o.measured.reference ||
       !o.measured.channels.empty() || o.measured.rgb)
     throw wrong_usage(
-        "what is said of a table (--set, --bins, --mask …) goes with a table, not with two terms");
+        "what is said of a table (--bins, --mask …) goes with a table, not with two terms");
   std::vector<std::pair<std::string, Range>> domain;
   for (const auto& s : parse_settings(o.domain)) {
     if (s.values.size() != 2)
       throw wrong_usage(fmt::format("domain {}: expected LOW,HIGH", s.name));
     domain.emplace_back(s.name, Range{s.values[0], s.values[1]});
+  }
+  for (const auto& s : parse_settings(o.set)) {
+    if (s.values.size() != 1)
+      throw wrong_usage(fmt::format(
+          "--set {}: expected one value, as terms are compared in one channel", s.name));
+    domain.emplace_back(s.name, Range{s.values[0], s.values[0]});
   }
   Progress progress(o.quiet);
   progress("comparing");

@@ -8,7 +8,9 @@
 #include "base/error.h"
 #include "base/letters.h"
 #include "brdf/catalogue/foreign_terms.h"
+#include "brdf/in_number/number.h"
 #include "integrate/albedo/normalisation.h"
+#include "reports/measure/samples.h"
 #include "reports/own/in_half.h"
 #include "reports/own/pairing.h"
 #include "reports/own/parameters.h"
@@ -74,6 +76,40 @@ std::string slip_of_norm(std::size_t term, double norm) {
   return "";
 }
 
+/// Where a distribution is normalised over directions, at two widths and more: a sentence; otherwise "".
+std::string slip_of_directions(std::size_t term) {
+  const auto known = known_parameters(term);
+  const auto width = width_of(known);
+  if (!width || catalogue()[term].anisotropic) return "";
+  constexpr std::size_t places = 5, steps = 4000, enough = 2;
+  constexpr double pi = std::numbers::pi, same = 2e-3, other = 5e-3;
+  std::vector<auditing::Row> rows;
+  std::vector<double> weights;
+  for (std::size_t i = 0; i < steps; ++i) {
+    const double t = (static_cast<double>(i) + 0.5) / steps, theta = pi / 2 * t * t * t;
+    rows.push_back(auditing::row(theta, 0, theta, 0));
+    weights.push_back(2 * pi * std::sin(theta) * pi / 2 * 3 * t * t / steps);
+  }
+  std::size_t over_hemisphere = 0, over_sphere = 0;
+  for (const double w : values_between(known[*width], places)) {
+    std::vector<double> p;
+    for (const auto& q : known) p.push_back(usual_of(q));
+    p[*width] = w;
+    const auto d = values_in(Number::double_, term, p, rows);
+    double sum = 0, projected = 0;
+    for (std::size_t i = 0; i < steps; ++i)
+      sum += d[i] * weights[i], projected += d[i] * weights[i] * rows[i].noh;
+    if (!(std::abs(projected - 1) > other)) continue;
+    over_hemisphere += std::abs(sum - 1) < same;
+    over_sphere += std::abs(sum - 0.5) < same;
+  }
+  if (over_hemisphere < enough && over_sphere < enough) return "";
+  return fmt::format(
+      "it is normalised over the {}, ∫ D dω = 1: expected ∫ D NoH dω = 1, over the projected "
+      "hemisphere",
+      over_hemisphere < enough ? "whole sphere" : "hemisphere");
+}
+
 FunctionAudit audit_function(const FileFunction& of) {
   FunctionAudit a{of};
   const auto& f = *of.function;
@@ -83,6 +119,15 @@ FunctionAudit audit_function(const FileFunction& of) {
   const Role role = catalogue()[term].role();
   a.laws = laws_of(f, term);
   a.operations_in_one = operations_in_one(term);
+  for (const auto& name : a.laws.without_effect) {
+    const auto known = known_parameters(term);
+    const auto width = width_of(known);
+    const bool is_slip =
+        name.starts_with("No") || name == "VoH" || (width && known[*width].name == name);
+    (is_slip ? a.slips : a.to_check)
+        .push_back(name + " changes nothing" +
+                   (is_slip ? ": a clamp holds it, as min does in the place of max" : ""));
+  }
   if (a.laws.fails_behind)
     a.to_check.emplace_back(
         "a light behind the horizon has no value: right where the caller leaves such lights out");
@@ -115,7 +160,10 @@ FunctionAudit audit_function(const FileFunction& of) {
       a.no_model.clear();
     }
     if (!a.nearest || !is_same(*a.nearest))
-      if (const auto slip = slip_form(term); !slip.empty()) a.slips.push_back(slip);
+      if (const auto slip = slip_form(term); !slip.empty())
+        (slip == f0_after ? a.to_check : a.slips).push_back(slip);
+    if (role == Role::ndf)
+      if (const auto slip = slip_of_directions(term); !slip.empty()) a.slips.push_back(slip);
     if (role == Role::ndf && a.slips.empty() && (!a.nearest || !is_same(*a.nearest)))
       if (const auto slip = slip_of_norm(term, a.laws.normalisation->value); !slip.empty())
         a.slips.push_back(slip);

@@ -64,19 +64,25 @@ struct Side {
   std::function<Values(const Values&)> at;
 };
 
+/// What is said of a parameter.
+const Range* said_of(const Domain& domain, const Parameter& p) {
+  const auto said =
+      std::ranges::find_if(domain, [&](const auto& d) { return same_letters(d.first, p.name); });
+  return said == domain.end() ? nullptr : &said->second;
+}
+
 /// Values of one's own parameters at a place within their bounds or those of a domain.  Metals are left out where nothing is said of
 /// them, and two widths are not the same.
 Values own_values(const Side& own, const std::string& name, const Domain& domain, std::size_t k) {
   Values all;
   for (const auto& p : own.parameters) {
     Parameter at = p;
-    const auto said =
-        std::ranges::find_if(domain, [&](const auto& d) { return same_letters(d.first, p.name); });
-    if (said != domain.end()) at.legal = said->second, at.start = said->second.low;
+    const Range* const said = said_of(domain, p);
+    if (said) at.legal = *said, at.start = said->low;
     if (std::isnan(at.start))
       throw wrong_usage(fmt::format("{} of {} has no bounds: give them by --domain {}=LOW,HIGH",
                                     p.name, name, p.name));
-    const bool is_left_out = is_metallic(p) && said == domain.end();
+    const bool is_left_out = is_metallic(p) && !said;
     const bool is_second = p.meaning.ends_with('y') || p.meaning.ends_with('b');
     all.push_back(is_left_out
                       ? low_of(p)
@@ -93,16 +99,28 @@ void compare_sides(TermComparison& c,
                    const std::vector<Row>& rows,
                    const Domain& domain,
                    double (*difference)(double own, double other, double most)) {
+  for (const auto& [name, range] : domain) {
+    const auto is_it = [&](const Parameter& q) { return same_letters(q.name, name); };
+    if (std::ranges::none_of(own.parameters, is_it) &&
+        std::ranges::none_of(other.parameters, is_it))
+      throw wrong_usage(fmt::format("neither {} nor {} has a parameter '{}'", c.a, c.b, name));
+  }
   std::vector<Values> p, f;
   for (std::size_t k = 0; k < compared_at; ++k) {
     p.push_back(own_values(own, c.a, domain, k));
     f.push_back(own.at(p.back()));
   }
-  const auto alone = [&](const Parameter& q) {
-    const bool is_said =
-        std::ranges::any_of(domain, [&](const auto& d) { return same_letters(d.first, q.name); });
-    return is_metallic(q) && !is_said ? fmt::format("{} {:.4g}", q.name, low_of(q))
-                                      : std::string(q.name);
+  const auto only_own = [&](const Parameter& q) {
+    const Range* const said = said_of(domain, q);
+    const Range at = said             ? *said
+                     : is_metallic(q) ? Range{low_of(q), low_of(q)}
+                                      : Range{low_of(q), high_of(q)};
+    return at.low < at.high ? fmt::format("{} {:.4g} to {:.4g}", q.name, at.low, at.high)
+                            : fmt::format("{} {:.4g}", q.name, at.low);
+  };
+  const auto alone = [&](const Parameter& w) {  // the other's
+    const Range* const said = said_of(domain, w);
+    return said ? said->low : std::isnan(w.start) ? 0.5 : w.start;
   };
   std::optional<TermComparison> best;
   for (const auto& pairs : possible_pairs(own.parameters, other.parameters)) {
@@ -112,10 +130,8 @@ void compare_sides(TermComparison& c,
       Values q;
       for (std::size_t j = 0; j < pairs.size(); ++j) {
         const auto& w = other.parameters[j];
-        q.push_back(std::clamp(pairs[j]              ? pairs[j]->value(p[k])
-                               : std::isnan(w.start) ? 0.5
-                                                     : w.start,
-                               w.legal.low, w.legal.high));
+        q.push_back(
+            std::clamp(pairs[j] ? pairs[j]->value(p[k]) : alone(w), w.legal.low, w.legal.high));
       }
       const auto g = other.at(q);
       const double most = *std::ranges::max_element(g);
@@ -123,7 +139,18 @@ void compare_sides(TermComparison& c,
         differences.take(difference(f[k][i], g[i], most), own.parameters, p[k], rows[i]);
     }
     t.rms = differences.rms();
-    t.pairs = text_of(pairs, own.parameters, other.parameters, alone);
+    t.pairs = text_of(pairs, other.parameters);
+    for (const auto k : unpaired(pairs, own.parameters))
+      t.only_a.push_back(only_own(own.parameters[k]));
+    for (std::size_t j = 0; j < pairs.size(); ++j)
+      if (const auto& w = other.parameters[j]; !pairs[j])
+        t.only_b.push_back(fmt::format("{} {:.4g}", w.name, alone(w)));
+      else if (const Range* const said = said_of(domain, w);
+               said && !(said->low < said->high) &&
+               std::ranges::none_of(own.parameters, [&](const Parameter& q) {
+                 return same_letters(q.name, w.name);
+               }))
+        throw wrong_usage(fmt::format("{} is {} here: set that", w.name, pairs[j]->text));
     if (!best || t.largest < best->largest) best = std::move(t);
   }
   c = std::move(*best);
@@ -235,6 +262,8 @@ std::string to_json(const TermComparison& c) {
                 {"b", c.b},
                 {"read_as", c.read_as.empty() ? Json() : Json(c.read_as)},
                 {"parameters", c.pairs.empty() ? Json() : Json(c.pairs)},
+                {"only_a", c.only_a},
+                {"only_b", c.only_b},
                 {"measure", c.measure},
                 {"largest", c.largest},
                 {"at", c.at},
@@ -250,6 +279,10 @@ std::string text_of(const TermComparison& c) {
   std::string s = fmt::format("{} beside {}{}\n", c.a, c.b,
                               c.read_as.empty() ? "" : fmt::format(", read as {}", c.read_as));
   if (!c.pairs.empty()) s += fmt::format("  {:<14}{}\n", "parameters", c.pairs);
+  for (const auto& [of, only] : {std::pair(c.a, c.only_a), {c.b, c.only_b}})
+    if (!only.empty())
+      s += fmt::format("  {:<14}{}: {}; --set NAME=VALUE sets it\n", "only one has", of,
+                       fmt::join(only, ", "));
   s += c.largest < 1e-12 ? fmt::format("  {:<14}none, in {}\n", "difference", c.measure)
                          : fmt::format("  {:<14}{:.4g} at most, RMS {:.3g}, in {}; at {}\n",
                                        "difference", c.largest, c.rms, c.measure, c.at);

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include "reports/own/in_half.h"
 
@@ -13,6 +14,7 @@ namespace gonio {
 struct TermComparison {
   std::string a, b, read_as;  ///< read_as: what was tried and taken, of a masking term G or V
   std::string pairs;          ///< which parameters stand for which
+  std::vector<std::string> only_a, only_b;  ///< parameters without one, with what they are at
   double largest = 0, rms = 0;
   std::string measure, at;
   std::string in_channels;  ///< " in one channel", where a function has three
@@ -20,6 +22,8 @@ struct TermComparison {
   std::string half_a, half_b;
 };
 /// Parameters stand for one another by name, and a width by each map that its name allows: the one of the least difference is taken.
+/// \param domain  ends of parameters; equal ones set it, also of a parameter that only one side has
+/// \throws Error  wrong usage of a name that neither side has, or that another stands for
 TermComparison compare_terms(const std::string& a, const std::string& b, const Domain&);
 /// A file's function that is a whole model beside a model, in the same way.
 TermComparison compare_with_model(const std::string& own, const std::string& spec, const Domain&);

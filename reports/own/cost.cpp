@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <utility>
 #include <vector>
 
 #include "brdf/catalogue/foreign_terms.h"
@@ -15,6 +16,8 @@
 #include "reports/own/compare.h"
 #include "reports/own/pairing.h"
 #include "reports/own/parameters.h"
+
+#include <fmt/format.h>
 
 namespace gonio {
 namespace {
@@ -96,7 +99,14 @@ std::size_t operations_in_one(std::size_t term) {
 }
 
 std::size_t operations_in(const std::string& spec, std::size_t channels) {
-  return operations_of(compose(spec, channels)).total();
+  auto below = parse_model(spec);
+  std::size_t of_coat = 0;
+  if (const auto coat = std::exchange(below.coat, {})) {  // white: f = F D V + (1 − F) f_below
+    ModelSpec alone;
+    alone.lobes.push_back(*coat);
+    of_coat = operations_of(compose(alone, 1)).total() + 1 + 2 * channels;
+  }
+  return of_coat + operations_of(compose(below, channels)).total();
 }
 
 std::string channels_text(const foreign::Function& f, bool in_one) {
@@ -114,6 +124,80 @@ bool has_highlight(std::size_t term) {
   });
 }
 
+namespace {
+
+/// D and V of ours that a highlight may be like, and the model in which they stand.
+struct Kind {
+  const char *ndf, *masking, *fresnel;
+  bool is_sheen;
+};
+constexpr std::array kinds{Kind{"ggx", "smith_ggx.correlated", "schlick", false},
+                           Kind{"beckmann", "smith_beckmann.correlated", "schlick", false},
+                           Kind{"blinn_phong", "implicit", "schlick", false},
+                           Kind{"charlie", "smith_charlie.correlated", "constant", true}};
+
+/// How unlike two shapes are whatever their scales: 0 to 1.
+double unlikeness(const Values& f, const Values& g) {
+  double ff = 0, gg = 0, fg = 0;
+  for (std::size_t i = 0; i < f.size(); ++i)
+    if (std::isfinite(f[i]) && std::isfinite(g[i])) {
+      ff += f[i] * f[i];
+      gg += g[i] * g[i];
+      fg += f[i] * g[i];
+    }
+  return ff > 0 && gg > 0 ? 1 - fg * fg / (ff * gg) : 1;
+}
+
+/// The kind that a function's highlight is nearest to by its values, over each map of each parameter that may be its width; GGX, where
+/// no other is much nearer.
+const Kind& kind_of(std::size_t term, std::span<const Parameter> own) {
+  const auto colours = possible_colours(own);
+  const auto& rows = auditing::rows_of(Role::diffuse);
+  std::vector<std::size_t> widths;
+  if (const auto named = width_of(own)) widths.push_back(*named);
+  for (std::size_t k = 0; k < own.size() && (widths.empty() || widths[0] != width_of(own)); ++k)
+    if (!is_colour(own[k]) && !is_metallic(own[k]) && !is_eta(own[k])) widths.push_back(k);
+  std::array<double, kinds.size()> least;
+  least.fill(1);
+  constexpr std::size_t places = 3;
+  for (const auto k : widths) {
+    std::vector<Values> white;
+    const auto at = values_between(own[k], places);
+    for (const double w : at) {
+      auto p =
+          colours.empty() ? Values(own.size()) : with_highlight(own, colours[0], 1, Others::usual);
+      if (colours.empty()) std::ranges::transform(own, p.begin(), usual_of);
+      p[k] = w;
+      white.push_back(values_in(Number::double_, term, p, rows));
+    }
+    for (std::size_t kind = 0; kind < kinds.size(); ++kind) {
+      const std::size_t ndf = find_term(kinds[kind].ndf, Role::ndf),
+                        masking = find_term(kinds[kind].masking, Role::masking);
+      for (const double power : every_power(own[k])) {
+        double sum = 0;
+        for (std::size_t j = 0; j < places; ++j) {
+          const double alpha = alpha_of(at[j], power);
+          if (!catalogue()[ndf].parameters[0].legal.holds(alpha)) {
+            sum = places;
+            break;
+          }
+          auto g = values_in(Number::double_, ndf, std::array{alpha}, rows);
+          const auto v = values_in(Number::double_, masking,
+                                   Values(catalogue()[masking].parameters.size(), alpha), rows);
+          for (std::size_t i = 0; i < g.size(); ++i) g[i] *= v[i];
+          sum += unlikeness(white[j], g);
+        }
+        least[kind] = std::min(least[kind], sum / places);
+      }
+    }
+  }
+  const auto nearest = static_cast<std::size_t>(std::ranges::min_element(least) - least.begin());
+  constexpr double much = 0.5;  // of GGX's, which is the usual one
+  return kinds[least[nearest] < much * least[0] ? nearest : 0];
+}
+
+}  // namespace
+
 OfTheKind model_of_the_kind(std::size_t term) {
   const auto parameters = known_parameters(term);
   const std::size_t channels = channels_of(*foreign_term(term)->function);
@@ -122,10 +206,14 @@ OfTheKind model_of_the_kind(std::size_t term) {
                      operations_of(*foreign_term(term)->function, channels).total()};
   };
   if (has_highlight(term)) {
-    std::string spec = has_diffuse(term, parameters) ? "lambert+" : "";
-    spec += "ggx/smith_ggx.correlated/schlick";
-    if (has_coat(parameters)) spec += "+ggx/smith_ggx.correlated/schlick";
-    return of(spec);
+    const auto& kind = kind_of(term, parameters);
+    // A sheen is as even as a diffuse part: its colours tell them apart.
+    const auto colours = possible_colours(parameters);
+    const bool is_on_base = kind.is_sheen ? !colours.empty() && !colours[0].diffuse.empty()
+                                          : has_diffuse(term, parameters);
+    return of(fmt::format("{}{}/{}/{}{}", is_on_base ? "lambert+" : "", kind.ndf, kind.masking,
+                          kind.fresnel,
+                          has_coat(parameters) ? "+coat:ggx/smith_ggx.correlated/schlick" : ""));
   }
   Domain domain;
   for (const auto& p : parameters)

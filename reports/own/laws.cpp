@@ -9,6 +9,7 @@
 #include "integrate/albedo/normalisation.h"
 #include "reports/measure/samples.h"
 #include "reports/own/parameters.h"
+#include "reports/own/row_columns.h"
 
 namespace gonio {
 namespace {
@@ -83,6 +84,62 @@ std::vector<Row> grazing() {
   return rows;
 }
 
+/// Names of parameters, and of a term's cosines, that its programs read and that change no value.
+std::vector<std::string> without_effect(const foreign::Function& f,
+                                        std::size_t term,
+                                        std::span<const Parameter> parameters,
+                                        const Settings& settings) {
+  const Role role = catalogue()[term].role();
+  std::vector<Row> rows;
+  constexpr std::size_t part = 7;
+  const auto& all_rows = auditing::rows_of(role);
+  for (std::size_t i = part; i < all_rows.size(); i += part) rows.push_back(all_rows[i]);
+  const auto values = [&](std::size_t c, const Values& p, const std::vector<Row>& at) {
+    return f.is_g ? shown_in(Number::double_, term + c, p, at)
+                  : values_in(Number::double_, term + c, p, at);
+  };
+  // The last settings spread over all bounds together.
+  constexpr std::size_t enough = 24;
+  const auto looked_at = std::span(settings).last(std::min(enough, settings.size()));
+  const auto is_same_always = [&](const auto& changed) {
+    for (const auto& p : looked_at)
+      for (std::size_t c = 0; c < f.programs.size(); ++c)
+        if (changed(c, p)) return false;
+    return true;
+  };
+  const auto differ = [](const Values& v, const Values& w) {
+    for (std::size_t i = 0; i < v.size(); ++i)
+      if (std::isfinite(v[i]) && std::isfinite(w[i]) &&
+          std::abs(v[i] - w[i]) > 1e-9 * std::max(std::abs(v[i]), std::abs(w[i])))
+        return true;
+    return false;
+  };
+  std::vector<std::string> names;
+  for (std::size_t k = 0; k < parameters.size(); ++k)
+    if (is_same_always([&](std::size_t c, Values p) {
+          p[k] = low_of(parameters[k]);
+          const auto low = values(c, p, rows);
+          p[k] = high_of(parameters[k]);
+          return differ(low, values(c, p, rows));
+        }))
+      names.emplace_back(parameters[k].name);
+  const auto look_at = [&](const char* name, double Row::*cosine, std::size_t index) {
+    if (std::ranges::none_of(f.programs,
+                             [&](const auto& p) { return foreign::reads(p, true, index); }))
+      return;
+    auto other = rows;
+    for (auto& r : other) r.*cosine *= 0.6;
+    if (is_same_always([&](std::size_t c, const Values& p) {
+          return differ(values(c, p, rows), values(c, p, other));
+        }))
+      names.emplace_back(name);
+  };
+  if (role == Role::masking) look_at("NoL", &Row::nol, 0), look_at("NoV", &Row::nov, 1);
+  if (role == Role::ndf && !f.reads_frame) look_at("NoH", &Row::noh, 2);
+  if (role == Role::fresnel) look_at("VoH", &Row::voh, 3);
+  return names;
+}
+
 bool takes_both_cosines(const foreign::Function& f) {
   const auto takes = [&](std::string_view scalar, std::string_view vector) {
     return std::ranges::any_of(f.arguments, [&](const foreign::Argument& a) {
@@ -103,6 +160,7 @@ Laws laws_of(const foreign::Function& f, std::size_t term) {
   std::vector<Row> other;
   for (const auto& r : rows) other.push_back(auditing::exchanged(r));
   const auto horizon = role == Role::ndf || role == Role::fresnel ? std::vector<Row>{} : grazing();
+  RowColumns at_rows(rows), at_other(other), at_horizon(horizon);
   constexpr double below_by_rounding = 1e-12;  // as (1 − VoH)⁵ is where VoH rounds to more than 1
   const auto count_finite = [&](const std::vector<double>& v, const Values& p,
                                 const std::vector<Row>& at) {
@@ -114,9 +172,9 @@ Laws laws_of(const foreign::Function& f, std::size_t term) {
   };
   for (const auto& p : settings)
     for (std::size_t c = 0; c < f.programs.size(); ++c) {
-      count_finite(values_in(Number::double_, term + c, p, horizon), p, horizon);
-      const auto v = values_in(Number::double_, term + c, p, rows);
-      const auto w = values_in(Number::double_, term + c, p, other);
+      count_finite(at_horizon.values(term + c, p), p, horizon);
+      const auto v = at_rows.values(term + c, p);
+      const auto w = at_other.values(term + c, p);
       count_finite(v, p, rows);
       for (std::size_t i = 0; i < v.size(); ++i) {
         if (!std::isfinite(v[i])) continue;
@@ -131,6 +189,7 @@ Laws laws_of(const foreign::Function& f, std::size_t term) {
           a.reciprocity = FoundAt{off / size, at()};
       }
     }
+  a.without_effect = without_effect(f, term, parameters, settings);
   if (role == Role::diffuse && a.not_finite == 0 && takes_both_cosines(f)) {
     const Row behind = auditing::row(100 * degree, 0, 30 * degree, 90 * degree);
     const auto v = values_in(Number::double_, term, settings[0], std::span(&behind, 1));

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "foreign/function.h"
 #include "reports/own/energy.h"
@@ -18,7 +19,9 @@ struct Laws {
   std::optional<FoundAt> lowest;  ///< below 0, else none
   std::size_t not_finite = 0;     ///< of the inputs looked at, in double
   std::string not_finite_at;      ///< the first of them
-  bool fails_behind = false;      ///< a whole model has no value for a light behind the horizon
+  /// Parameters, and of a term cosines, that it reads and that change nothing.
+  std::vector<std::string> without_effect;
+  bool fails_behind = false;  ///< a whole model has no value for a light behind the horizon
 };
 Laws laws_of(const foreign::Function&, std::size_t foreign_term);
 

@@ -21,8 +21,9 @@ std::vector<std::string> likely_slips(const NearestModel& n,
                                       bool guessed_pi) {
   std::vector<std::string> all;
   if (std::abs(n.factor - 1) > same_within) all.push_back(highlight_text(n.factor, guessed_pi));
-  if (!n.disguise.empty()) all.push_back(n.disguise);
-  if (!n.half_vector.empty()) all.push_back(n.half_vector);
+  if (!n.is_weight && !n.disguise.empty()) all.push_back(n.disguise);
+  for (const auto& slip : {n.half_vector, n.form_slip, n.fresnel_slip, n.interface_slip})
+    if (!slip.empty()) all.push_back(slip);
   const std::string name(width.name);
   if (n.power != n.masking_power)
     all.push_back(fmt::format("alpha is {} in D and {} in V: expected one alpha for both",
@@ -30,18 +31,16 @@ std::vector<std::string> likely_slips(const NearestModel& n,
   if (is_rough(width) && n.power == 4)
     all.push_back(
         fmt::format("{0} is squared once too often: alpha is {0}⁴ here, expected {0}²", name));
-  if (!n.fresnel_slip.empty()) all.push_back(n.fresnel_slip);
   if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, width, n.power));
-  if (!n.horizon.empty()) all.push_back(n.horizon);
+  if (n.drop && !n.drop->is_little()) all.push_back(text_of(*n.drop));
   return all;
 }
 
 std::vector<std::string> to_check(const NearestModel& n, const Parameter& width) {
   auto all = to_check(width, n.power);
-  if (n.spec.find("/schlick_ggx.direct/") != n.spec.npos) all.emplace_back(k_of_direct_light);
-  if (n.guard > 0 && n.horizon.empty())
-    all.push_back(fmt::format(
-        "{:.4g} is added to 4 NoL NoV: the highlight is darker towards the horizon", n.guard));
+  if (n.is_weight) all.push_back(n.disguise);
+  if (auto k = k_of(n.masking); !k.empty()) all.push_back(std::move(k));
+  if (n.drop && n.drop->is_little()) all.push_back(text_of(*n.drop));
   if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, width, n.power));
   return all;
 }

@@ -25,9 +25,10 @@ struct Pairing {
   std::vector<std::optional<std::size_t>> of;
   std::optional<std::size_t> width;  ///< the file's, where the form has an alpha
 };
-Pairing pair_up(std::span<const Parameter> own, const TermEntry& form) {
+Pairing pair_up(std::span<const Parameter> own,
+                const TermEntry& form,
+                std::optional<std::size_t> width) {
   Pairing p;
-  const auto width = width_of(own);
   for (const auto& q : form.parameters) {
     const auto same = std::ranges::find(own, q.name, &Parameter::meaning);
     std::optional<std::size_t> k;
@@ -44,7 +45,7 @@ Pairing pair_up(std::span<const Parameter> own, const TermEntry& form) {
 
 constexpr double pi = std::numbers::pi;
 /// Factors that are slips often made.
-constexpr std::array<std::pair<double, const char*>, 9> usual_factors{
+constexpr std::array<std::pair<double, const char*>, 10> usual_factors{
     {{pi, "π times too large: 1/π is missing"},
      {1 / pi, "π times too small: it is divided by π once too often"},
      {4, "4 times too large: a 4 is missing below"},
@@ -52,6 +53,7 @@ constexpr std::array<std::pair<double, const char*>, 9> usual_factors{
      {4 / pi, "4/π times too large: π stands below where 4 belongs"},
      {pi / 4, "π/4 of what it should be: 4 stands below where π belongs"},
      {4 * pi, "4π times too large: 1/(4π) is missing"},
+     {2 * pi, "2π times too large: 1/(2π) is missing"},
      {2, "twice too large: a factor ½ is missing, as in V = ½/(…)"},
      {0.5, "half of what it should be"}}};
 
@@ -74,6 +76,35 @@ std::optional<Bite> bite_in(std::size_t term, const NearestForm& n, std::size_t 
     return values_in(Number::double_, term, p, one)[0] /
            (n.factor * values_in(Number::double_, n.term, q, one)[0]);
   });
+}
+
+/// Where a guard holds masking down towards the horizon, takes it out of the values of G2.
+void take_guard(NearestForm& n,
+                std::size_t term,
+                std::span<const Row> rows,
+                std::vector<Values>& f,
+                const std::vector<Values>& g) {
+  const auto as_v = [&](std::vector<Values> all) {
+    for (auto& one : all)
+      for (std::size_t i = 0; i < rows.size(); ++i) one[i] /= 4 * rows[i].nol * rows[i].nov;
+    return all;
+  };
+  const auto own = as_v(f), form = as_v(g);
+  const auto guard = guard_of(rows, own, form);
+  if (!guard) return;
+  for (std::size_t k = 0; k < f.size(); ++k)
+    for (std::size_t i = 0; i < rows.size(); ++i) f[k][i] /= guard->left(rows[i], form[k][i]);
+  Values p, q;
+  for (const auto& a : known_parameters(term)) p.push_back(usual_of(a));
+  for (const auto& a : catalogue()[n.term].parameters)
+    q.push_back(n.width && a.name == "alpha" ? alpha_of(usual_of(*n.width), n.power) : a.start);
+  n.drop = drop_of(
+      [&](const Row& r) {
+        const std::span one(&r, 1);
+        return values_in(Number::double_, term, p, one)[0] /
+               values_in(Number::double_, n.term, q, one)[0];
+      },
+      guard);
 }
 
 /// Compares the file's function with one form, alpha being one power of its width.
@@ -136,6 +167,7 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     if (n.norms->high < n.norms->low * (1 + same_within)) n.norms.reset();
     n.cap.reset();
   }
+  if (own.role() == Role::masking) take_guard(n, term, rows, f, g);
   n.difference = 0;
   double held_down = 0;  // the largest difference of what lies below the form
   std::size_t low_rows = 0;
@@ -159,6 +191,8 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
       }
     }
   }
+  // The form itself, where it is there, is nearer than another with a guard.
+  if (n.drop) n.difference = std::max(n.difference, 0.5 * same_within);
   // A guard holds narrow peaks down, and nothing else differs.
   if (low_rows > 0 &&
       !(pairing.width && is_same(n) && !widest_is_held && 2 * low_rows < f.size() * rows.size() &&
@@ -181,6 +215,11 @@ bool is_same(const NearestForm& n) {
 std::optional<NearestForm> nearest_form(std::size_t term) {
   const auto& own = catalogue()[term];
   const auto known = known_parameters(term);
+  std::vector<std::optional<std::size_t>> widths;
+  // Whatever its name, a distribution's parameter is a width.
+  if (own.role() == Role::ndf && !width_of(known))
+    for (std::size_t k = 0; k < known.size(); ++k) widths.emplace_back(k);
+  if (widths.empty()) widths.push_back(width_of(known));
   std::optional<NearestForm> best;
   for (std::size_t form = 0; form < catalogue_size(); ++form) {
     const auto& entry = catalogue()[form];
@@ -194,17 +233,25 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       }
       continue;
     }
-    const Pairing pairing = pair_up(known, entry);
-    static constexpr double as_it_is = 1;
-    for (const double power :
-         pairing.width ? powers_of(known[*pairing.width]) : std::span(&as_it_is, 1)) {
-      const auto n = compared(term, form, pairing, power);
-      if (!std::isfinite(n.difference)) continue;
-      // Forms may differ by rounding only, near a narrow peak by 1e-5: the first is taken, and the
-      // plainest map.
-      constexpr double by_rounding = 1e-5;
-      if (!best || n.difference < std::min(0.5 * best->difference, best->difference - by_rounding))
-        best = n;
+    for (const auto& width : widths) {
+      const Pairing pairing = pair_up(known, entry, width);
+      std::vector<double> powers{1};
+      if (pairing.width) {
+        const auto& w = known[*pairing.width];
+        const auto named = powers_of(w);
+        powers.assign(named.begin(), named.end());
+        if (own.role() == Role::ndf) powers = every_power(w);
+      }
+      for (const double power : powers) {
+        const auto n = compared(term, form, pairing, power);
+        if (!std::isfinite(n.difference)) continue;
+        // Forms may differ by rounding only, near a narrow peak by 1e-5: the first is taken, and
+        // the plainest map.
+        constexpr double by_rounding = 1e-5;
+        if (!best ||
+            n.difference < std::min(0.5 * best->difference, best->difference - by_rounding))
+          best = n;
+      }
     }
   }
   return best;
@@ -218,16 +265,23 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
   if (n.width) {
     const auto& w = n.width->name;
     const bool is_roughness = is_rough(*n.width);
+    const bool is_width_by_name = width_of(std::span(&*n.width, 1)).has_value();
     if (is_roughness && n.power == 4)
       all.push_back(
           fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²", w, w, w));
     const bool is_squared = w.ends_with('2') || w.ends_with("sq");
     if (is_squared && n.power == 1)
       all.push_back(fmt::format("{} is taken for alpha: it has not been squared", w));
-    if (!is_roughness && !is_squared && n.power == 2)
+    if (!is_roughness && !is_squared && is_width_by_name && n.power == 2)
       all.push_back(
           fmt::format("{} is squared once too often: the form's alpha is {}² here", w, w));
-    if (!is_roughness && !is_squared && n.power == 0.5)
+    if (is_roughness && (n.power == of_gloss || n.power == of_gloss_as_alpha))
+      all.push_back(fmt::format("{0} is used as a smoothness: expected 1 − {0} in its place", w));
+    if (is_gloss(*n.width) && !narrows(n.power))
+      all.push_back(fmt::format("{0} is used as a roughness: expected 1 − {0} in its place", w));
+    if ((is_roughness || w == "alpha") && n.power == of_inverse)
+      all.push_back(fmt::format("{0} is inverted: the form's alpha is 1/{0} here", w));
+    if (!is_roughness && !is_squared && is_width_by_name && n.power == 0.5)
       all.push_back(
           fmt::format("{} stands where {}² belongs: the form's alpha is √{} here", w, w, w));
   }
@@ -245,6 +299,7 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
         fmt::format("a clamp at {:.5g} cuts the peak below {} {:.3g}", *n.cap, n.width->name, w));
   }
   if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, *n.width, n.power));
+  if (n.drop && !n.drop->is_little()) all.push_back(text_of(*n.drop));
   if (own.role() == Role::masking) {
     const auto name = plain_name(f.name.function);
     if (f.is_g && (name.starts_with("v") && !name.starts_with("vg")))
@@ -253,6 +308,16 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
           "elsewhere");
   }
   return all;
+}
+
+std::string k_of(std::string_view form) {
+  if (form.ends_with("schlick_ggx.direct"))
+    return "its k is that of direct light, (roughness + 1)²/8: right for lamps; under an "
+           "environment k = alpha/2";
+  if (form.ends_with("schlick_ggx.half_alpha"))
+    return "its k is that of image light, alpha/2: right under an environment; for lamps most "
+           "shaders have k = (roughness + 1)²/8";
+  return "";
 }
 
 std::vector<std::string> to_check(const Parameter& width, double power) {
@@ -266,40 +331,10 @@ std::vector<std::string> to_check(const Parameter& width, double power) {
 std::vector<std::string> to_check(const NearestForm& n) {
   if (!is_same(n)) return {};
   auto all = n.width ? to_check(*n.width, n.power) : std::vector<std::string>{};
-  if (catalogue()[n.term].id() == "masking.schlick_ggx.direct") all.emplace_back(k_of_direct_light);
+  if (auto k = k_of(catalogue()[n.term].id()); !k.empty()) all.push_back(std::move(k));
   if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, *n.width, n.power));
+  if (n.drop && n.drop->is_little()) all.push_back(text_of(*n.drop));
   return all;
-}
-
-std::optional<Bite> bite_of(const Parameter& width,
-                            double power,
-                            const std::function<double(double)>& left) {
-  constexpr double bitten = 0.9, materials = 0.04;
-  constexpr std::size_t steps = 40;
-  const bool is_narrow_high = narrows(power);
-  const double low = low_of(width), high = high_of(width), least = 1e-3 * (high - low);
-  // At no width at all there is no peak.
-  double narrow = is_narrow_high ? (power == of_exponent ? high : std::min(high, 1 - least))
-                                 : std::max(low, least);
-  double wide = is_narrow_high ? low : high;
-  Bite b;
-  b.narrowest = narrow;
-  b.left = left(narrow);
-  if (!(b.left < bitten) || !(left(wide) > bitten)) return {};
-  for (std::size_t k = 0; k < steps; ++k) {
-    const double middle = (narrow + wide) / 2;
-    (left(middle) < bitten ? narrow : wide) = middle;
-  }
-  b.from = narrow;
-  b.is_little = alpha_of(b.from, power) < materials;
-  return b;
-}
-
-std::string text_of(const Bite& b, const Parameter& width, double power) {
-  return fmt::format(
-      "a guard or a clamp cuts the peak {} {} {:.3g}: {:.2g} of it is left at {:.3g}{}",
-      narrows(power) ? "above" : "below", width.name, b.from, b.left, b.narrowest,
-      b.is_little ? "; right where no material is so smooth" : "");
 }
 
 }  // namespace gonio

@@ -3,7 +3,6 @@
 /// Which form of the catalogue a function of a person's file is, and by which slip it differs.
 
 #include <cstddef>
-#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -11,23 +10,12 @@
 
 #include "brdf/catalogue/foreign_terms.h"
 #include "number/parameter.h"
+#include "reports/own/guards.h"
 
 namespace gonio {
 
 /// Values that differ by less are the same.
 inline constexpr double same_within = 1e-3;
-
-/// A guard or a clamp that holds a narrow peak down.
-struct Bite {
-  double from = 0;                 ///< the width where a tenth of the peak is lost
-  double narrowest = 0, left = 0;  ///< the narrowest, and what is left of the peak there
-  bool is_little = false;          ///< only where lobes are narrower than materials are
-};
-/// \param left  part of the peak by width
-std::optional<Bite> bite_of(const Parameter& width,
-                            double power,
-                            const std::function<double(double)>& left);
-std::string text_of(const Bite&, const Parameter& width, double power);
 
 struct NearestForm {
   std::size_t term = 0;            ///< of the catalogue
@@ -40,6 +28,7 @@ struct NearestForm {
   /// Least and largest of the factors by width, where one for all is not enough: the form is right, its norm is not.
   std::optional<Range> norms;
   std::optional<Bite> bite;
+  std::optional<Drop> drop;  ///< of masking
 };
 
 /// The nearest form of the same role; none where nothing has a value that can be compared.
@@ -49,9 +38,8 @@ std::vector<std::string> likely_slips(std::size_t foreign_term, const NearestFor
 /// What is right for some callers and wrong for others, a sentence each.
 std::vector<std::string> to_check(const Parameter& width, double power);
 std::vector<std::string> to_check(const NearestForm&);
-inline constexpr const char* k_of_direct_light =
-    "its k is that of direct light, (roughness + 1)²/8: right for lamps; under an environment k = "
-    "alpha/2";
+/// What its k is right for; "" of a form without one.  \param form  its id
+std::string k_of(std::string_view form);
 /// "4 times too large: a 4 is missing below"
 std::string factor_text(double factor);
 /// True where the file's function is that form, by these maps.

@@ -13,6 +13,7 @@
 #include "reports/finding/words.h"
 #include "reports/measure/samples.h"
 #include "reports/own/cost.h"
+#include "reports/own/disguises.h"
 #include "reports/own/parameters.h"
 #include "reports/own/slip_forms.h"
 
@@ -24,62 +25,32 @@ namespace {
 using auditing::Row;
 using auditing::Values;
 
-/// (1 − c)⁵ of Schlick's form.
-double fifth(double c) {
-  const double u = 1 - c;
-  return u * u * u * u * u;
-}
-
-/// What a slip multiplies a highlight with.
-struct Disguise {
-  double (*factor)(const Row&);
-  const char* slip;
-};
-constexpr std::array<Disguise, 4> disguises{{
-    {[](const Row&) { return 1.0; }, ""},
-    {[](const Row& r) { return 1 + fifth(r.voh); }, ""},  // said of F
-    {[](const Row& r) { return 4 * r.nol * r.nov; },
-     "G stands where V belongs: its highlight lacks the division by 4 NoL NoV"},
-    {[](const Row& r) { return r.nol; },
-     "its highlight has the cosine NoL in it, which its diffuse part has not"},
-}};
-
-/// What a shader does with its half vector.
-struct HalfVector {
-  double scale;  ///< its length over |h · l|; 0: it is of length 1
-  const char* slip;
-};
-constexpr std::array<HalfVector, 3> half_vectors{{
-    {0, ""},
-    {1, "its half vector is not normalised: it is (L + V)/2"},
-    {2, "its half vector is not normalised: it is L + V"},
-}};
-
 /// Light and view mirrored at 30°: D and V are at their peaks, nearly.
 const Row& mirrored() {
   static const Row row = auditing::row(30 * degree, 0, 30 * degree, std::numbers::pi);
   return row;
 }
 
-/// A Fresnel term that a function has where no parameter is F0, with its parameter.
-struct Interface {
-  std::string_view id;
-  double parameter;
-};
-std::vector<Interface> interfaces(const PartColours& colours,
-                                  std::span<const Parameter> parameters) {
-  if (!colours.f0.empty()) return {{}};
-  constexpr double of_dielectrics = 0.04;
-  if (!colours.eta) return {{"fresnel.schlick", of_dielectrics}};
-  const double eta = high_of(parameters[*colours.eta]), root = (eta - 1) / (eta + 1);
-  return {{"fresnel.dielectric", eta}, {"fresnel.schlick", root * root}};
-}
-
 /// A term's values over rows, by width.
 using ByWidth = std::vector<Values>;
+/// Places of the least and of the largest.
+std::array<std::size_t, 2> ends_of(const Values& v) {
+  const auto [least, most] = std::ranges::minmax_element(v);
+  return {static_cast<std::size_t>(least - v.begin()), static_cast<std::size_t>(most - v.begin())};
+}
+
+/// A form of the catalogue, or one that shaders have by a slip.
 struct Form {
   std::size_t term;
-  ByWidth values;
+  const SlipForm* slip;
+  ByWidth values{};
+  std::array<std::size_t, 2> ends{};  ///< rows of the least and of the largest at the widest
+
+  std::string id() const {
+    if (slip) return slip->like;
+    const std::string whole(catalogue()[term].id());
+    return whole.substr(whole.find('.') + 1);
+  }
 };
 
 /// A whole function with the parameters that make its parts, and the search for the model that it is.
@@ -100,63 +71,67 @@ class Search {
     constexpr double least_cosine = 0.3;
     for (const auto& r : auditing::rows_of(Role::diffuse))
       (std::min(r.nol, r.nov) < least_cosine ? grazing_ : rows_).push_back(r);
+    Values over_cosines;
+    for (const auto& r : rows_) over_cosines.push_back(1 / (r.nol * r.nov));
+    cosine_ends_ = ends_of(over_cosines);
     widths_ = values_between(own_[width_], 4);
     // The widest first: there no guard bites.
     const auto powers = powers_of(own_[width_]);
     if (!narrows(powers[0])) std::ranges::reverse(widths_);
     for (const double power : powers)
-      scaled_.push_back({power, forms(Role::ndf, power), forms(Role::masking, power)});
+      scaled_.push_back({power, forms(Role::ndf, power), forms(Role::masking, power), {}, {}});
   }
 
   std::optional<NearestModel> found() {
-    for (const auto& d : disguises)
+    for (const auto& d : disguises())
       for (const auto others : {Others::low, Others::usual}) {
-        others_ = others;
-        disguise_ = &d;
-        take_white(0);
-        if (auto n = of_highlight()) return n;
+        take_white(d, others);
+        if (d.is_weight && !scales_with_f0()) continue;
+        if (auto n = of_highlight(Sought::right)) return n;
       }
-    // Tutorials add so much to 4 NoL NoV.
-    for (const double guard : {1e-3, 1e-2}) {
-      others_ = Others::low, disguise_ = disguises.data();
-      take_white(guard);
-      if (auto n = of_highlight()) return n;
-    }
+    for (const auto sought : {Sought::guarded, Sought::slips})
+      for (const auto others : {Others::low, Others::usual}) {
+        take_white(disguises()[0], others);
+        if (auto n = of_highlight(sought)) return n;
+      }
     return {};
   }
 
  private:
   struct Scaled {
     double power;
-    std::vector<Form> shapes, maskings;
+    std::vector<Form> shapes, maskings, shape_slips, masking_slips;
   };
+  enum class Sought { right, guarded, slips };
 
-  /// The highlight at F0 = 1 by width, with what is added to 4 NoL NoV taken out, and the widths that a guard makes one.
-  void take_white(double guard) {
+  /// The highlight at F0 = 1 by width, and the widths that a guard makes one.
+  void take_white(const Disguise& disguise, Others others) {
+    disguise_ = &disguise, others_ = others;
     white_.clear(), is_guarded_.clear();
-    for (const double w : widths_) white_.push_back(highlight(1, w, rows_));
-    guard_ = guard;
-    for (auto& f : white_)
-      for (std::size_t i = 0; i < f.size() && guard > 0; ++i)
-        f[i] *= 1 + guard / (4 * rows_[i].nol * rows_[i].nov);
     constexpr double same = 1e-9;
-    for (std::size_t k = 0; k < white_.size(); ++k) {
-      const auto other = highlight(1, widths_[k] * (1 + 1e-3), rows_);
-      const auto raw = highlight(1, widths_[k], rows_);
+    for (const double w : widths_) {
+      white_.push_back(highlight(1, w, rows_));
+      const auto other = highlight(1, w * (1 + 1e-3), rows_);
       bool is_one = true;
-      for (std::size_t i = 0; i < raw.size(); ++i)
-        is_one = is_one && std::abs(raw[i] - other[i]) <= same * std::abs(raw[i]);
+      for (std::size_t i = 0; i < other.size(); ++i)
+        is_one = is_one && std::abs(white_.back()[i] - other[i]) <= same * std::abs(other[i]);
       is_guarded_.push_back(is_one);
     }
+    peak_ = ends_of(white_[0])[1];
   }
 
+  bool scales_with_f0() const {
+    const auto half = highlight(0.5, widths_[0], rows_);
+    for (std::size_t i = 0; i < half.size(); ++i)
+      if (!(std::abs(2 * half[i] / white_[0][i] - 1) < same_within)) return false;
+    return true;
+  }
   Values highlight(double f0, double width, std::span<const Row> rows) const {
     auto p = with_highlight(own_, colours_, f0, others_);
     p[width_] = width;
     auto f = values_in(Number::double_, term_, p, rows);
     if (interface_.id.empty()) return f;
-    const auto of = values_in(Number::double_, find_term(interface_.id),
-                              std::array{interface_.parameter}, as_taken(rows));
+    const auto of = interface_.values(as_taken(rows));
     for (std::size_t i = 0; i < f.size(); ++i) f[i] /= of[i];
     return f;
   }
@@ -169,21 +144,36 @@ class Search {
   std::vector<Row> as_taken(std::span<const Row> rows) const {
     std::vector<Row> all(rows.begin(), rows.end());
     for (auto& r : all) {
-      if (half_.scale == 0) break;
-      const double length = half_.scale * r.voh;
-      r.noh = std::min(r.noh * length, 1.0);
-      r.voh = std::min(r.voh * length, 1.0);
+      if (!half_.cosines) break;
+      const auto [noh, voh] = half_.cosines(r);
+      r.noh = half_.is_clamped ? std::min(noh, 1.0) : noh;
+      r.voh = half_.is_clamped ? std::min(voh, 1.0) : voh;
       r.sin2_theta_h = 1 - r.noh * r.noh;
     }
     return all;
   }
-  Values values_of(std::size_t form, double alpha, std::span<const Row> rows) const {
-    const Values p(catalogue()[form].parameters.size(), alpha);
-    return catalogue()[form].role() == Role::masking
-               ? values_in(Number::double_, form, p, rows)
-               : values_in(Number::double_, form, p, as_taken(rows));
+  Values values_of(const Form& form, Role role, double alpha, std::span<const Row> rows) const {
+    const auto at = role == Role::masking ? std::vector(rows.begin(), rows.end()) : as_taken(rows);
+    if (!form.slip)
+      return values_in(Number::double_, form.term,
+                       Values(catalogue()[form.term].parameters.size(), alpha), at);
+    Values v;
+    for (const auto& r : at) v.push_back(form.slip->value(alpha, r));
+    return v;
   }
-  /// Values of each form of a role, from the widest as far as alpha is one of the form's.
+  /// With its values from the widest as far as alpha is one of the form's; none of too few.
+  void add(std::vector<Form>& all, Form form, Role role, double power, const Range& legal) const {
+    for (const double w : widths_) {
+      const double alpha = alpha_of(w, power);
+      if (!legal.holds(alpha)) break;
+      form.values.push_back(values_of(form, role, alpha, rows_));
+    }
+    constexpr std::size_t enough = 2;  // narrower ones may be no alpha of the form's
+    if (form.values.size() < enough) return;
+    form.ends = ends_of(form.values[0]);
+    all.push_back(std::move(form));
+  }
+  /// Each form of a role.
   std::vector<Form> forms(Role role, double power) const {
     std::vector<Form> all;
     for (std::size_t form = 0; form < catalogue_size(); ++form) {
@@ -192,42 +182,78 @@ class Search {
           !e.anisotropic && !e.coupled &&
           (e.parameters.empty() || (e.parameters.size() == 1 && e.parameters[0].name == "alpha"));
       if (e.role() != role || !is_alpha_only) continue;
-      ByWidth of;
-      for (const double w : widths_) {
-        const double alpha = alpha_of(w, power);
-        if (!e.parameters.empty() && !e.parameters[0].legal.holds(alpha)) break;
-        of.push_back(values_of(form, alpha, rows_));
-      }
-      constexpr std::size_t enough = 2;  // narrower ones may be no alpha of the form's
-      if (of.size() >= enough) all.push_back({form, std::move(of)});
+      add(all, {form, nullptr}, role, power,
+          e.parameters.empty() ? Range{-1e300, 1e300} : e.parameters[0].legal);
     }
     return all;
   }
+  void take_slips() {
+    if (!scaled_[0].shape_slips.empty()) return;
+    for (auto& s : scaled_)
+      for (const auto& [role, into] :
+           {std::pair{Role::ndf, &s.shape_slips}, {Role::masking, &s.masking_slips}})
+        for (const auto& slip : slip_forms(role)) add(*into, {0, &slip}, role, s.power, {1e-4, 1});
+  }
 
-  std::optional<NearestModel> of_highlight() const {
+  std::optional<NearestModel> of_highlight(Sought sought) {
+    if (sought == Sought::slips) take_slips();
     // One alpha for both is tried first.
     for (const bool is_one : {true, false})
       for (const auto& of_d : scaled_)
         for (const auto& of_v : scaled_) {
           if ((&of_d == &of_v) != is_one) continue;
-          for (const auto& d : of_d.shapes)
-            for (const auto& v : of_v.maskings)
-              if (const double factor = factor_of(d, v); factor > 0)
-                return described(d, of_d.power, v, of_v.power, factor);
+          const auto found_in =
+              [&](const std::vector<Form>& shapes,
+                  const std::vector<Form>& maskings) -> std::optional<NearestModel> {
+            for (const auto& d : shapes)
+              for (const auto& v : maskings) {
+                guard_.reset();
+                if (sought == Sought::guarded && !take_guard(d, v)) continue;
+                if (const double factor = factor_of(d, v); factor > 0)
+                  return described(d, of_d.power, v, of_v.power, factor);
+              }
+            return {};
+          };
+          if (sought != Sought::slips) {
+            if (auto n = found_in(of_d.shapes, of_v.maskings)) return n;
+            continue;
+          }
+          if (auto n = found_in(of_d.shape_slips, of_v.maskings)) return n;
+          if (auto n = found_in(of_d.shapes, of_v.masking_slips)) return n;
         }
     return {};
+  }
+  /// Takes the sum below that the highlight at the widest has beside D V: two places say how much, all others whether it is so.
+  bool take_guard(const Form& d, const Form& v) {
+    for (const auto kind : {HorizonGuard::Kind::sum, HorizonGuard::Kind::sum_of_v}) {
+      const bool of_v = kind == HorizonGuard::Kind::sum_of_v;
+      const auto x = [&](std::size_t i) {
+        return of_v ? v.values[0][i] : 1 / (4 * rows_[i].nol * rows_[i].nov);
+      };
+      const auto y = [&](std::size_t i) { return d.values[0][i] * v.values[0][i] / white_[0][i]; };
+      const auto [low, high] = of_v ? v.ends : cosine_ends_;
+      const double slope = (y(high) - y(low)) / (x(high) - x(low)), at_0 = y(low) - slope * x(low);
+      const double amount = slope / at_0;
+      constexpr double most = 1;
+      if (!(at_0 > 0) || !(amount > 1e-4) || !(amount < most)) continue;
+      bool is = true;
+      for (std::size_t i = 0; is && i < rows_.size(); ++i)
+        is = std::abs((at_0 + slope * x(i)) / y(i) - 1) < same_within;
+      if (is) guard_ = {kind, amount};
+      if (is) return true;
+    }
+    return false;
   }
   /// The function's highlight over D V, where it is that: everywhere at the widest, and elsewhere but for rows that a guard holds
   /// down; 0 where it is not.
   double factor_of(const Form& d, const Form& v) const {
     const auto wanted = [&](std::size_t k, std::size_t i) {
-      return d.values[k][i] * v.values[k][i] * disguise_->factor(rows_[i]);
+      return d.values[k][i] * v.values[k][i] * disguise_->factor(rows_[i]) *
+             (guard_ ? guard_->left(rows_[i], v.values[k][i]) : 1);
     };
-    const auto peak =
-        static_cast<std::size_t>(std::ranges::max_element(white_[0]) - white_[0].begin());
-    const double factor = white_[0][peak] / wanted(0, peak);
+    const double factor = white_[0][peak_] / wanted(0, peak_);
     if (!(factor > 0) || !std::isfinite(factor)) return 0;
-    const double least = 1e-30 * std::abs(white_[0][peak]);
+    const double least = 1e-30 * std::abs(white_[0][peak_]);
     std::size_t held_down = 0;
     const std::size_t widths = std::min(d.values.size(), v.values.size());
     constexpr std::size_t enough = 2;
@@ -246,31 +272,42 @@ class Search {
   }
 
   NearestModel described(
-      const Form& d, double d_power, const Form& v, double v_power, double factor) const {
+      const Form& d, double d_power, const Form& v, double v_power, double factor) {
     NearestModel n;
     n.width = width_, n.colours = colours_;
     n.power = d_power, n.masking_power = v_power, n.factor = factor;
     n.disguise = disguise_->slip;
+    n.is_weight = disguise_->is_weight;
     n.half_vector = half_.slip;
-    n.guard = guard_;
+    n.interface_slip = interface_.slip();
+    for (const auto* form : {&d, &v})
+      if (form->slip) n.form_slip = form->slip->slip;
     const auto over_form = [&](const Values& f, double width, std::span<const Row> rows) {
-      const auto x = values_of(d.term, alpha_of(width, d_power), rows),
-                 y = values_of(v.term, alpha_of(width, v_power), rows);
+      const auto x = values_of(d, Role::ndf, alpha_of(width, d_power), rows),
+                 y = values_of(v, Role::masking, alpha_of(width, v_power), rows);
       Values r;
       for (std::size_t i = 0; i < rows.size(); ++i) r.push_back(f[i] / (factor * x[i] * y[i]));
       return r;
     };
-    n.bite = bite_of(own_[width_], d_power, [&](double w) {
-      const std::span one(&mirrored(), 1);
-      return over_form(highlight(1, w, one), w, one)[0] / disguise_->factor(mirrored());
-    });
-    take_horizon(n, over_form(highlight(1, widths_[0], grazing_), widths_[0], grazing_));
-    const auto short_id = [](std::size_t form) {
-      const std::string id(catalogue()[form].id());
-      return id.substr(id.find('.') + 1);
+    const auto left_at = [&](double width, const Row& at) {
+      const std::span one(&at, 1);
+      return over_form(highlight(1, width, one), width, one)[0] / disguise_->factor(at);
     };
-    auto spec = model_of_lobe(short_id(d.term), short_id(v.term), "schlick");
-    if (const auto form = take_fresnel(n, over_form)) spec.lobes[0].fresnel = short_id(*form);
+    n.bite = bite_of(own_[width_], d_power, [&](double w) { return left_at(w, mirrored()); });
+    if (!guard_) {
+      std::vector<Values> own(1),
+          form{values_of(v, Role::masking, alpha_of(widths_[0], v_power), grazing_)};
+      for (std::size_t i = 0; i < grazing_.size(); ++i)
+        own[0].push_back(left_at(widths_[0], grazing_[i]) * form[0][i]);
+      guard_ = guard_of(grazing_, own, form);
+    }
+    n.drop = drop_of([&](const Row& r) { return left_at(widths_[0], r); }, guard_);
+    n.masking = v.id();
+    auto spec = model_of_lobe(d.id(), n.masking, "schlick");
+    if (const auto form = take_fresnel(n, over_form)) {
+      const std::string id(catalogue()[*form].id());
+      spec.lobes[0].fresnel = id.substr(id.find('.') + 1);
+    }
     if (take_diffuse(n)) spec.diffuse = "lambert";
     n.spec = to_text(spec);
     const auto channels = channels_of(*foreign_term(term_)->function);
@@ -279,27 +316,13 @@ class Search {
     return n;
   }
 
-  void take_horizon(NearestModel& n, const Values& over) const {
-    std::size_t least = 0;
-    for (std::size_t i = 0; i < over.size(); ++i)
-      if (over[i] / disguise_->factor(grazing_[i]) <
-          over[least] / disguise_->factor(grazing_[least]))
-        least = i;
-    constexpr double much = 0.8;
-    const double left = over[least] / disguise_->factor(grazing_[least]);
-    if (left < much)
-      n.horizon = fmt::format(
-          "a guard below holds its highlight down towards the horizon: {:.2g} of it is left at {}",
-          left, auditing::text(grazing_[least]));
-  }
-
   /// Sets what is said of F, and returns the form of the catalogue that it is, if there is one.
   std::optional<std::size_t> take_fresnel(NearestModel& n, const auto& over_form) const {
     if (!interface_.id.empty()) return find_term(interface_.id);
     const auto& colour = own_[colours_.f0[0]];
     const double f0 = low_of(colour) + 0.04 * (high_of(colour) - low_of(colour));
     auto f = over_form(highlight(f0, widths_[0], rows_), widths_[0], rows_);
-    const bool is_of_f = disguise_ == &disguises[1];
+    const bool is_of_f = disguise_->is_of_f;
     for (std::size_t i = 0; i < f.size() && !is_of_f; ++i) f[i] /= disguise_->factor(rows_[i]);
     const auto taken = as_taken(rows_);
     const auto is = [&](auto value) {
@@ -316,11 +339,28 @@ class Search {
       for (const auto& q : e.parameters) p.push_back(q.start);
       p[0] = f0;
       const auto values = values_in(Number::double_, form, p, taken);
-      if (is([&](std::size_t i) { return values[i]; })) return form;
+      if (!is([&](std::size_t i) { return values[i]; })) continue;
+      if (e.id() == "fresnel.constant" && varies_of_a_dielectric(over_form))
+        n.fresnel_slip =
+            "its metals have no Fresnel term: F0 is mixed in after it; expected F0 = "
+            "mix(0.04, albedo, metallic) in its place";
+      return form;
     }
     n.fresnel_slip = fresnel_slip(f0, taken, f, true);
+    if (n.fresnel_slip.empty()) n.fresnel_slip = fresnel_slip(f0, rows_, f, true);
     n.other_fresnel = n.fresnel_slip.empty();
     return {};
+  }
+
+  /// Of a metallic workflow, whether F of what is no metal depends on the angle.
+  bool varies_of_a_dielectric(const auto& over_form) const {
+    if (!colours_.metallic) return false;
+    auto p = with_diffuse(own_, colours_, low_of(own_[colours_.f0[0]]), others_);
+    p[width_] = widths_[0];
+    const auto f = over_form(values_in(Number::double_, term_, p, rows_), widths_[0], rows_);
+    const auto [least, most] = std::ranges::minmax(f);
+    constexpr double much = 1.5;
+    return least > 0 && most > much * least;
   }
 
   /// Sets what is said of the diffuse part; true where it is Lambert's.
@@ -361,8 +401,10 @@ class Search {
   Others others_ = Others::low;
   const Disguise* disguise_ = nullptr;
   ByWidth white_;
-  std::vector<bool> is_guarded_;  ///< the value there does not depend on the width
-  double guard_ = 0;              ///< added to 4 NoL NoV
+  std::size_t peak_ = 0;                      ///< row of the largest at the widest
+  std::array<std::size_t, 2> cosine_ends_{};  ///< rows of the largest and of the least NoL NoV
+  std::vector<bool> is_guarded_;              ///< the value there does not depend on the width
+  std::optional<HorizonGuard> guard_;         ///< that the forms looked at have
 };
 
 /// "no parameter is F0 by its name …", with the roles that the names of a metallic workflow suggest.
@@ -405,9 +447,9 @@ std::optional<NearestModel> nearest_model(std::size_t term, std::string& why) {
   // What names say is looked at with all half vectors, and everything else with the right one.
   for (const auto& c : colours)
     for (const auto width : widths)
-      for (const auto& half : half_vectors) {
+      for (const auto& half : half_vectors()) {
         const bool is_said = named && has_f0 && &c == colours.data();
-        if (!is_said && &half != half_vectors.data()) continue;
+        if (!is_said && half.cosines) continue;
         for (const auto& i : interfaces(c, own))
           if (auto n = Search(term, width, c, half, i).found()) {
             if (!is_said && !c.f0.empty() && !is_f0(own[c.f0[0]]))

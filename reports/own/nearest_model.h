@@ -27,11 +27,14 @@ struct NearestModel {
       false;  ///< the function has a diffuse part that is not Lambert's, which the model has not
   bool other_fresnel = false;  ///< F is that of none of ours
   std::string disguise;        ///< what its highlight is multiplied with, a sentence
+  bool is_weight = false;      ///< `disguise` is right where F0 is a weight
   std::string fresnel_slip;    ///< a sentence
+  std::string interface_slip;  ///< likewise, of F that comes from eta
+  std::string form_slip;       ///< of D or V
   std::string half_vector;     ///< a sentence
-  double guard = 0;            ///< what is added to 4 NoL NoV
+  std::string masking;         ///< the form of V, without its role
   std::optional<Bite> bite;
-  std::string horizon;  ///< a guard that holds it down there, a sentence
+  std::optional<Drop> drop;
 };
 
 /// The model whose D V F is the function's, with its other colours dark, but for a factor and what slips make of it.

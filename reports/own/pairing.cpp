@@ -132,14 +132,8 @@ std::vector<Pairs> possible_pairs(std::span<const Parameter> own,
   return all;
 }
 
-std::string text_of(const Pairs& pairs,
-                    std::span<const Parameter> own,
-                    std::span<const Parameter> other,
-                    const std::function<std::string(const Parameter&)>& alone) {
-  std::vector<std::string> all, left;
-  for (std::size_t j = 0; j < other.size(); ++j)
-    all.push_back(pairs[j] ? fmt::format("{} = {}", other[j].name, pairs[j]->text)
-                           : fmt::format("{} {:.4g}", other[j].name, other[j].start));
+std::vector<std::size_t> unpaired(const Pairs& pairs, std::span<const Parameter> own) {
+  std::vector<std::size_t> left;
   for (std::size_t k = 0; k < own.size(); ++k) {
     // What stands for something changes it.
     std::vector<double> low, high;
@@ -148,10 +142,16 @@ std::string text_of(const Pairs& pairs,
     high[k] = 0.25 * (low_of(own[k]) + 3 * high_of(own[k]));
     if (std::ranges::none_of(pairs,
                              [&](const auto& p) { return p && p->value(low) != p->value(high); }))
-      left.push_back(alone(own[k]));
+      left.push_back(k);
   }
-  return fmt::format("{}{}", fmt::join(all, ", "),
-                     left.empty() ? "" : fmt::format("; only yours: {}", fmt::join(left, ", ")));
+  return left;
+}
+
+std::string text_of(const Pairs& pairs, std::span<const Parameter> other) {
+  std::vector<std::string> all;
+  for (std::size_t j = 0; j < other.size(); ++j)
+    if (pairs[j]) all.push_back(fmt::format("{} = {}", other[j].name, pairs[j]->text));
+  return fmt::format("{}", fmt::join(all, ", "));
 }
 
 }  // namespace gonio

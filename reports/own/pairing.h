@@ -27,11 +27,9 @@ using Pairs = std::vector<std::optional<StandsFor>>;
 std::vector<Pairs> possible_pairs(std::span<const Parameter> own, std::span<const Parameter> other);
 /// Whether a metallic workflow's metals are meant.
 bool is_metallic(const Parameter&);
-/// "kd = albedo, alpha = roughness²; only yours: metallic 0"
-/// \param others  the other's default of each that nothing stands for
-std::string text_of(const Pairs&,
-                    std::span<const Parameter> own,
-                    std::span<const Parameter> other,
-                    const std::function<std::string(const Parameter&)>& alone);
+/// Those of one's own that stand for nothing.
+std::vector<std::size_t> unpaired(const Pairs&, std::span<const Parameter> own);
+/// "kd = albedo, alpha = roughness²"
+std::string text_of(const Pairs&, std::span<const Parameter> other);
 
 }  // namespace gonio

@@ -139,22 +139,31 @@ double alpha_of(double width, double power) {
   return power == of_exponent         ? std::sqrt(2 / (width + 2))
          : power == of_gloss          ? (1 - width) * (1 - width)
          : power == of_gloss_as_alpha ? 1 - width
+         : power == of_inverse        ? 1 / width
                                       : std::pow(width, power);
 }
 
 namespace {
 constexpr std::array of_glosses{of_gloss, of_gloss_as_alpha};
+}  // namespace
 
 bool is_gloss(const Parameter& p) {
   const auto n = known_as(p);
   return n.find("gloss") != n.npos || n.find("smooth") != n.npos;
 }
-}  // namespace
 
 std::span<const double> powers_of(const Parameter& width) {
   static constexpr std::array powers{1.0, 2.0, 0.5, 4.0};
   if (is_exponent(width)) return {&of_exponent, 1};
   return is_gloss(width) ? std::span<const double>(of_glosses) : powers;
+}
+
+std::vector<double> every_power(const Parameter& width) {
+  const auto named = powers_of(width);
+  std::vector<double> all(named.begin(), named.end());
+  for (const double p : {1.0, 2.0, 0.5, 4.0, of_gloss, of_gloss_as_alpha, of_inverse, of_exponent})
+    if (std::ranges::find(all, p) == all.end()) all.push_back(p);
+  return all;
 }
 
 std::span<const double> conventions_of(const Parameter& width) {
@@ -172,6 +181,7 @@ std::string alpha_text(const std::string& w, double power) {
   return power == of_exponent         ? "√(2/(" + w + " + 2))"
          : power == of_gloss          ? "(1 − " + w + ")²"
          : power == of_gloss_as_alpha ? "1 − " + w
+         : power == of_inverse        ? "1/" + w
          : power == 0.5               ? "√" + w
          : power == 2                 ? w + "²"
          : power == 4                 ? w + "⁴"

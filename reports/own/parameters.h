@@ -26,6 +26,8 @@ bool is_colour(const Parameter&);
 bool is_f0(const Parameter&);
 /// Whether a parameter's name says roughness, whose square alpha is.
 bool is_rough(const Parameter&);
+/// Whether it says how smooth a surface is.
+bool is_gloss(const Parameter&);
 /// Whether it is the exponent of a cosine.
 bool is_exponent(const Parameter&);
 /// Whether it stretches a lobe along the tangent or the bitangent.
@@ -43,11 +45,14 @@ double high_of(const Parameter&);
 /// Values at which a function is looked at: within the parameter's bounds, or those of its role where it has none.
 std::vector<double> values_between(const Parameter&, std::size_t count);
 
-/// Maps from a file's width to the catalogue's alpha: a power; or √(2/(width + 2)) of an exponent, (1 − width)² or 1 − width of a gloss.
-inline constexpr double of_exponent = -2, of_gloss = -3, of_gloss_as_alpha = -4;
+/// Maps from a file's width to the catalogue's alpha: a power; or √(2/(width + 2)) of an exponent, (1 − width)² or 1 − width of a gloss,
+/// and 1/width.
+inline constexpr double of_exponent = -2, of_gloss = -3, of_gloss_as_alpha = -4, of_inverse = -5;
 double alpha_of(double width, double power);
 /// Those that a width of that name may have, the likeliest first.
 std::span<const double> powers_of(const Parameter& width);
+/// These and then all others, whatever its name says.
+std::vector<double> every_power(const Parameter& width);
 /// Of these the ones that are conventions, not slips, the likeliest first.
 std::span<const double> conventions_of(const Parameter& width);
 /// True where more of the width is a narrower lobe.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <numbers>
 
 #include "brdf/catalogue/foreign_terms.h"
@@ -16,155 +17,308 @@ namespace {
 using auditing::Row;
 using auditing::Values;
 
-struct SlipForm {
-  double (*value)(double parameter, const Row&);  ///< of F0 or of alpha
-  const char* slip;
+constexpr double pi = std::numbers::pi;
+
+// ---- distributions, of c = NoH
+/// GGX with what stands in the place of NoH².
+double ggx_of(double a, double c2) {
+  const double d = c2 * (a * a - 1) + 1;
+  return a * a / (pi * d * d);
+}
+/// Beckmann with what stands in the places of NoH² and of NoH⁴.
+double beckmann_of(double a, double c2, double c4) {
+  return std::exp((1 - 1 / c2) / (a * a)) / (pi * a * a * c4);
+}
+constexpr const char* squared_twice = "NoH is squared twice: NoH⁴ stands where NoH² belongs";
+constexpr std::array of_distribution{
+    SlipForm{
+        [](double a, const Row& r) { return a * a / (pi * (r.noh * r.noh * (a * a - 1) + 1)); },
+        "the denominator of GGX is not squared", "ggx"},
+    SlipForm{[](double a, const Row& r) { return ggx_of(a, r.noh * r.noh) / a; },
+             "alpha stands above where alpha² belongs", "ggx"},
+    SlipForm{[](double a, const Row& r) { return ggx_of(a, std::pow(r.noh, 4)); }, squared_twice,
+             "ggx"},
+    SlipForm{[](double a, const Row& r) { return ggx_of(a, r.noh); },
+             "NoH stands where NoH² belongs", "ggx"},
+    SlipForm{[](double a, const Row& r) {
+               const double d = r.noh * r.noh * (1 - a * a) + 1;
+               return a * a / (pi * d * d);
+             },
+             "1 − alpha² stands below where alpha² − 1 belongs", "ggx"},
+    SlipForm{[](double a, const Row& r) {
+               const double d = r.noh * r.noh * (a * a + 1) + 1;
+               return a * a / (pi * d * d);
+             },
+             "alpha² + 1 stands below where alpha² − 1 belongs", "ggx"},
+    SlipForm{[](double a, const Row& r) {
+               return beckmann_of(a, std::pow(r.noh, 4), std::pow(r.noh, 8));
+             },
+             squared_twice, "beckmann"},
+    SlipForm{[](double a, const Row& r) {
+               return beckmann_of(a, std::pow(r.noh, 4), std::pow(r.noh, 4));
+             },
+             squared_twice, "beckmann"},
+    SlipForm{[](double a, const Row& r) { return beckmann_of(a, r.noh * r.noh, 1); },
+             "the division by NoH⁴ is missing", "beckmann"},
+    SlipForm{[](double a, const Row& r) { return beckmann_of(a, r.noh * r.noh, r.noh * r.noh); },
+             "NoH² stands below where NoH⁴ belongs", "beckmann"},
+    SlipForm{[](double a, const Row& r) {
+               return beckmann_of(a, r.noh * r.noh, a * a * std::pow(r.noh, 4)) * a * a * a;
+             },
+             "alpha stands below where alpha² belongs", "beckmann"},
+    SlipForm{[](double a, const Row& r) {
+               const double t = std::sqrt(std::max(0.0, 1 / (r.noh * r.noh) - 1));
+               return std::exp(-t / a) / (pi * a * a * std::pow(r.noh, 4));
+             },
+             "tan θ/alpha stands in the exponent where its square belongs", "beckmann"},
+    SlipForm{
+        [](double a, const Row& r) { return (2 + a) / (2 * pi) * std::pow(r.sin2_theta_h, a / 2); },
+        "its width is inverted: alpha stands where 1/alpha belongs in Charlie's exponent",
+        "charlie"},
 };
 
-/// (1 − c)ⁿ of Schlick's form and its like.
-double darkened(double c, int n) {
-  return std::pow(1 - c, n);
+// ---- masking, of a cosine c
+/// c² (1 − α²) + α², whose root stands in Smith's masking for GGX; over c² it is 1 + α² tan² θ.
+double below(double a, double c) {
+  return c * c * (1 - a * a) + a * a;
 }
-
-constexpr std::array<SlipForm, 3> of_cosine{{
-    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.noh, 5); },
-     "its Fresnel term takes NoH where VoH belongs"},
-    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.nov, 5); },
-     "its Fresnel term takes NoV where VoH belongs"},
-    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.nol, 5); },
-     "its Fresnel term takes NoL where VoH belongs"},
-}};
-constexpr std::array<SlipForm, 7> of_fresnel{{
-    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.voh, 4); },
-     "its Fresnel term has the power 4, Schlick's has 5"},
-    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.voh, 6); },
-     "its Fresnel term has the power 6, Schlick's has 5"},
-    {[](double f, const Row& r) { return f + (1 - f) * darkened(r.voh, 3); },
-     "its Fresnel term has the power 3, Schlick's has 5"},
-    {[](double f, const Row& r) { return f + f * darkened(r.voh, 5); },
-     "its Fresnel term is F0 + F0 (1 − VoH)⁵, expected F0 + (1 − F0) (1 − VoH)⁵"},
-    {[](double f, const Row& r) { return f + darkened(r.voh, 5); },
-     "its Fresnel term is F0 + (1 − VoH)⁵, expected F0 + (1 − F0) (1 − VoH)⁵"},
-    {[](double f, const Row& r) { return f + (1 - f) * std::pow(r.voh, 5); },
-     "its Fresnel term has VoH⁵ where (1 − VoH)⁵ belongs"},
-    {[](double f, const Row& r) { return 1 + (f - 1) * darkened(r.voh, 5); },
-     "its Fresnel term mixes from 1 to F0, expected from F0 to 1"},
-}};
-
-/// NoH² (α² − 1) + 1 of GGX.
-double ggx_below(double alpha, const Row& r) {
-  return r.noh * r.noh * (alpha * alpha - 1) + 1;
+/// √(1 + α² tan² θ)
+double steep(double a, double c) {
+  return std::sqrt(below(a, c)) / c;
 }
-constexpr std::array<SlipForm, 2> of_distribution{{
-    {[](double a, const Row& r) { return a * a / (std::numbers::pi * ggx_below(a, r)); },
-     "the denominator of GGX is not squared"},
-    {[](double a, const Row& r) {
-       const double d = ggx_below(a, r);
-       return a / (std::numbers::pi * d * d);
-     },
-     "alpha stands above where alpha² belongs"},
-}};
-
-/// √(c² (1 − α²) + α²) of Smith's masking for GGX.
-double smith_root(double alpha, double c) {
-  return std::sqrt(c * c * (1 - alpha * alpha) + alpha * alpha);
-}
+constexpr const char* no_root = "the square root of Smith's masking is missing";
+constexpr const char* no_minus = "−1 is missing in Smith's Λ = (−1 + √(1 + α² tan² θ))/2";
+constexpr const char* no_half = "½ is missing in Smith's Λ = (−1 + √(1 + α² tan² θ))/2";
 constexpr const char* swapped_cosines =
     "NoL and NoV are swapped: expected NoV beside the root with NoL, and NoL beside the one with "
     "NoV";
-constexpr std::array<SlipForm, 1> of_masking{{
-    {[](double a, const Row& r) {
-       return 0.5 / (r.nol * smith_root(a, r.nol) + r.nov * smith_root(a, r.nov));
-     },
-     swapped_cosines},
-}};
+/// Masking by one direction; of two the product.
+struct OfOne {
+  double (*g1)(double alpha, double cosine);
+  const char *slip, *like;
+};
+constexpr std::array of_one{
+    OfOne{[](double a, double c) { return 2 * c / (c + below(a, c)); }, no_root,
+          "smith_ggx.separable"},
+    OfOne{[](double a, double c) { return 2 / (2 + a * a * (1 / (c * c) - 1)); }, no_root,
+          "smith_ggx.separable"},
+    OfOne{[](double a, double c) { return 2 / (2 + steep(a, c)); }, no_minus,
+          "smith_ggx.separable"},
+    OfOne{[](double a, double c) { return 1 / steep(a, c); }, no_half, "smith_ggx.separable"},
+    OfOne{[](double a, double c) { return 2 * c / (c + std::sqrt(c * c + a * a)); },
+          "(1 − alpha²) is missing beside the cosine's square", "smith_ggx.separable"},
+    OfOne{[](double a, double c) { return c / (c + a / 2); },
+          "(1 − k) is missing beside the cosine in Schlick's masking", "schlick_ggx.half_alpha"},
+    OfOne{[](double a, double c) { return c / (c * (1 - a) + a); },
+          "k is alpha: Schlick's masking has k = alpha/2", "schlick_ggx.half_alpha"},
+};
+template <std::size_t k>
+double of_both(double a, const Row& r) {
+  return of_one[k].g1(a, r.nol) * of_one[k].g1(a, r.nov) / (4 * r.nol * r.nov);
+}
+template <std::size_t k, bool of_view>
+double of_either(double a, const Row& r) {
+  return of_one[k].g1(a, of_view ? r.nov : r.nol) / (4 * r.nol * r.nov);
+}
 
-std::string swapped_of_two_widths(std::size_t term) {
+double correlated(const Row& r, double of_l, double of_v) {
+  return 0.5 / (r.nov * of_l + r.nol * of_v);
+}
+double by_lambda(const Row& r, double of_l, double of_v) {
+  return 1 / (1 + of_l + of_v) / (4 * r.nol * r.nov);
+}
+template <bool of_view>
+double smith_of_one(double a, const Row& r) {
+  return 2 / (1 + steep(a, of_view ? r.nov : r.nol)) / (4 * r.nol * r.nov);
+}
+constexpr std::array of_pair{
+    SlipForm{[](double a, const Row& r) {
+               return correlated(r, std::sqrt(below(a, r.nov)), std::sqrt(below(a, r.nol)));
+             },
+             swapped_cosines, "smith_ggx.correlated"},
+    SlipForm{[](double a, const Row& r) { return correlated(r, below(a, r.nol), below(a, r.nov)); },
+             no_root, "smith_ggx.correlated"},
+    SlipForm{[](double a, const Row& r) {
+               const auto l = [&](double c) { return a * a * (1 / (c * c) - 1) / 2; };
+               return by_lambda(r, l(r.nol), l(r.nov));
+             },
+             no_root, "smith_ggx.correlated"},
+    SlipForm{[](double a, const Row& r) {
+               return by_lambda(r, steep(a, r.nol) / 2, steep(a, r.nov) / 2);
+             },
+             no_minus, "smith_ggx.correlated"},
+    SlipForm{[](double a, const Row& r) {
+               return by_lambda(r, steep(a, r.nol) - 1, steep(a, r.nov) - 1);
+             },
+             no_half, "smith_ggx.correlated"},
+    SlipForm{[](double a, const Row& r) {
+               return correlated(r, std::hypot(r.nol, a), std::hypot(r.nov, a));
+             },
+             "(1 − alpha²) is missing beside the cosine's square", "smith_ggx.correlated"},
+};
+template <std::size_t... k>
+constexpr auto pairs_of_one(std::index_sequence<k...>) {
+  return std::array{SlipForm{of_both<k>, of_one[k].slip, of_one[k].like}...};
+}
+template <bool of_view, std::size_t... k>
+constexpr auto ones(std::index_sequence<k...>) {
+  return std::array{SlipForm{of_either<k, of_view>, of_one[k].slip, of_one[k].like}...};
+}
+constexpr auto each_one = std::make_index_sequence<of_one.size()>{};
+constexpr auto of_product = pairs_of_one(each_one);
+/// Of one direction k may be what the caller makes of alpha.
+constexpr auto but_for_k = std::make_index_sequence<of_one.size() - 1>{};
+constexpr auto of_view = ones<true>(but_for_k), of_light = ones<false>(but_for_k);
+constexpr auto of_masking = [] {
+  std::array<SlipForm, of_pair.size() + of_product.size() + 2> all{};
+  auto at = std::ranges::copy(of_pair, all.begin()).out;
+  at = std::ranges::copy(of_product, at).out;
+  *at++ = {smith_of_one<true>, "its masking is that of the view only: G1 of the light is missing",
+           "smith_ggx.separable"};
+  *at++ = {smith_of_one<false>, "its masking is that of the light only: G1 of the view is missing",
+           "smith_ggx.separable"};
+  return all;
+}();
+
+/// Masking without a width: V.
+struct OfNone {
+  double (*v)(const Row&);
+  const char* slip;
+};
+/// 2 NoH c/VoH of Cook and Torrance.
+double groove(const Row& r, double c) {
+  return 2 * r.noh * c / r.voh;
+}
+constexpr const char* max_for_min =
+    "max stands where min belongs: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)";
+constexpr std::array of_none{
+    OfNone{[](const Row& r) { return 1 / (r.nol + r.nov - r.nol * r.nov); },
+           "4 times that of Neubelt: a 4 is missing below"},
+    OfNone{[](const Row& r) {
+             const double a = groove(r, r.nol), b = groove(r, r.nov);
+             return std::max(1.0, std::min(a, b)) / (4 * r.nol * r.nov);
+           },
+           max_for_min},
+    OfNone{[](const Row& r) {
+             const double a = groove(r, r.nol), b = groove(r, r.nov);
+             return std::min(1.0, std::max(a, b)) / (4 * r.nol * r.nov);
+           },
+           max_for_min},
+    OfNone{[](const Row& r) {
+             const double a = groove(r, r.nol), b = groove(r, r.nov);
+             return std::max({1.0, a, b}) / (4 * r.nol * r.nov);
+           },
+           max_for_min},
+    OfNone{[](const Row& r) {
+             return std::min(groove(r, r.nol), groove(r, r.nov)) / (4 * r.nol * r.nov);
+           },
+           "the 1 is missing: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)"},
+    OfNone{[](const Row& r) {
+             const double a = groove(r, r.nol), b = groove(r, r.nov);
+             return std::min({1.0, a / 2, b / 2}) / (4 * r.nol * r.nov);
+           },
+           "the 2 is missing: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)"},
+    OfNone{[](const Row& r) { return 0.25 / std::min(r.nol, r.nov); },
+           "min stands where max belongs: V = 1/(4 max(NoL, NoV))"},
+};
+
+/// True where values are a form's but for rounding; where the form has none, they may be anything.
+bool are(std::span<const double> values,
+         std::span<const Row> rows,
+         const std::function<double(const Row&)>& form) {
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    const double wanted = form(rows[i]);
+    if (std::isfinite(wanted) && !(std::abs(values[i] - wanted) <= same_within * std::abs(wanted)))
+      return false;
+  }
+  return true;
+}
+
+std::string slip_of_two_widths(std::size_t term) {
   const auto& rows = auditing::rows_of(Role::masking);
   const auto parameters = known_parameters(term);
   const Values p{usual_of(parameters[0]), 0.7 * high_of(parameters[1])};
   const auto v = values_in(Number::double_, term, p, rows);
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    const auto& r = rows[i];
-    const auto root = [&](double x, double y, double z) {
-      return std::hypot(p[0] * x, p[1] * y, z);
-    };
-    const double wanted =
-        0.5 / (r.nol * root(r.xol, r.yol, r.nol) + r.nov * root(r.xov, r.yov, r.nov));
-    if (!(std::abs(v[i] / wanted - 1) < same_within)) return "";
+  const auto root = [&](double x, double y, double z) { return std::hypot(p[0] * x, p[1] * y, z); };
+  const bool is_swapped = are(v, rows, [&](const Row& r) {
+    return 0.5 / (r.nol * root(r.xol, r.yol, r.nol) + r.nov * root(r.xov, r.yov, r.nov));
+  });
+  return is_swapped ? swapped_cosines : "";
+}
+
+/// Of a Fresnel function with F0, or with eta, and maybe with the extinction k.
+std::string slip_of_fresnel(std::size_t term) {
+  const auto& rows = auditing::rows_of(Role::fresnel);
+  const auto known = known_parameters(term);
+  Values p;
+  for (const auto& q : known) p.push_back(usual_of(q));
+  const auto eta = std::ranges::find_if(known, is_eta);
+  const auto k = std::ranges::find_if(known, [](const Parameter& q) { return q.meaning == "k"; });
+  const auto colours = part_colours(known);
+  const bool has_f0 = colours && !colours->f0.empty();
+  if (eta != known.end() && !has_f0) {
+    const double extinction = k == known.end() ? 0 : usual_of(*k);
+    const auto values = values_in(Number::double_, term, p, rows);
+    for (const auto& s : exact_slips())
+      if (are(values, rows,
+              [&](const Row& r) { return s.value(r.voh, usual_of(*eta), extinction); }))
+        return s.slip;
+    return "";
   }
-  return swapped_cosines;
+  if (!has_f0 && known.size() != 1) return "";
+  const std::size_t of = has_f0 ? colours->f0[0] : 0;
+  p[of] = low_of(known[of]) + 0.1 * (high_of(known[of]) - low_of(known[of]));
+  return fresnel_slip(p[of], rows, values_in(Number::double_, term, p, rows), false);
 }
 
 }  // namespace
 
-std::string fresnel_slip(double f0,
-                         std::span<const Row> rows,
-                         std::span<const double> values,
-                         bool of_model) {
-  constexpr double same = 2e-3;
-  const auto is = [&](const SlipForm& s) {
-    for (std::size_t i = 0; i < rows.size(); ++i)
-      if (!(std::abs(values[i] - s.value(f0, rows[i])) < same)) return false;
-    return true;
-  };
-  for (const auto& s : of_fresnel)
-    if (is(s)) return s.slip;
-  for (const auto& s : of_cosine)
-    if (of_model && is(s)) return s.slip;
-  return "";
+std::span<const SlipForm> slip_forms(Role role) {
+  if (role == Role::ndf) return of_distribution;
+  return role == Role::masking ? std::span<const SlipForm>(of_masking)
+                               : std::span<const SlipForm>();
 }
 
 std::string slip_form(std::size_t term) {
   const auto& own = catalogue()[term];
   const auto& rows = auditing::rows_of(own.role());
-  if (own.role() == Role::fresnel) {
-    const auto known = known_parameters(term);
-    const auto colours = part_colours(known);
-    const bool has_f0 = colours && !colours->f0.empty();
-    if (!has_f0 && own.parameters.size() != 1) return "";
-    const std::size_t k = has_f0 ? colours->f0[0] : 0;
-    const auto& f0 = known[k];
-    Values p;
-    for (const auto& q : known) p.push_back(usual_of(q));
-    const double at = low_of(f0) + 0.1 * (high_of(f0) - low_of(f0));
-    p[k] = at;
-    return fresnel_slip(at, rows, values_in(Number::double_, term, p, rows), false);
-  }
+  if (own.role() == Role::fresnel) return slip_of_fresnel(term);
   if (own.anisotropic && own.role() == Role::masking && own.parameters.size() == 2)
-    return swapped_of_two_widths(term);
+    return slip_of_two_widths(term);
   if (own.role() == Role::masking && own.parameters.empty()) {
     const auto v = values_in(Number::double_, term, {}, rows);
-    const auto is = [&](const Row& r) {
-      return std::abs(v[static_cast<std::size_t>(&r - rows.data())] *
-                          (r.nol + r.nov - r.nol * r.nov) -
-                      1) < same_within;
-    };
-    return std::ranges::all_of(rows, is) ? "4 times that of Neubelt: a 4 is missing below" : "";
+    for (const auto& s : of_none)
+      if (are(v, rows, s.v)) return s.slip;
+    return "";
   }
   const auto known = known_parameters(term);
   const auto width = width_of(known);
   if (!width || own.anisotropic || own.role() == Role::diffuse) return "";
-  std::span<const SlipForm> forms = of_masking;
-  if (own.role() == Role::ndf) forms = of_distribution;
   constexpr std::size_t places = 4;
   const auto widths = values_between(known[*width], places);
-  for (const double power : powers_of(known[*width]))
-    for (const auto& s : forms) {
-      bool is = true;
-      for (std::size_t k = 0; is && k < places; ++k) {
-        Values p;
-        for (const auto& q : known) p.push_back(usual_of(q));
-        p[*width] = widths[k];
-        const auto v = values_in(Number::double_, term, p, rows);
-        for (std::size_t i = 0; is && i < rows.size(); ++i) {
-          const double wanted = s.value(alpha_of(widths[k], power), rows[i]);
-          is = !std::isfinite(wanted) || std::abs(v[i] / wanted - 1) < same_within;
-        }
+  std::vector<Values> values;
+  for (const double w : widths) {
+    Values p;
+    for (const auto& q : known) p.push_back(usual_of(q));
+    p[*width] = w;
+    values.push_back(values_in(Number::double_, term, p, rows));
+  }
+  const auto named = [&](std::span<const SlipForm> forms) -> std::string {
+    for (const double power : powers_of(known[*width]))
+      for (const auto& s : forms) {
+        std::size_t k = 0;
+        while (k < places && are(values[k], rows, [&](const Row& r) {
+                 return s.value(alpha_of(widths[k], power), r);
+               }))
+          ++k;
+        if (k == places) return s.slip;
       }
-      if (is) return s.slip;
-    }
-  return "";
+    return "";
+  };
+  if (auto slip = named(slip_forms(own.role())); !slip.empty() || own.role() == Role::ndf)
+    return slip;
+  const auto of_one_cosine = named(of_view);
+  return of_one_cosine.empty() ? named(of_light) : of_one_cosine;
 }
 
 }  // namespace gonio

@@ -226,7 +226,8 @@ TEST(AuditFile, AGuardTowardsTheHorizonIsNamedAndASmallOneIsNot) {
   const auto with = [](const std::string& below) {
     return slips(audited(replaced(tutorial("4.0"), "(4.0 * NoL * NoV)", below)));
   };
-  EXPECT_HAS(with("max(4.0 * NoL * NoV, 0.1)"), "towards the horizon: 0.1 of it is left");
+  EXPECT_HAS(with("max(4.0 * NoL * NoV, 0.1)"),
+             "4 NoL NoV is held above 0.1: it is held down towards the horizon");
   EXPECT_EQ(with("(4.0 * NoL * NoV + 0.0001)"), "");
 }
 

@@ -28,7 +28,8 @@ TEST(CompareTerms, AWholeModelIsComparedWithOurs) {
           "albedo, metallic);"));
   const auto by_engine = compare_with_model(engine, "lambert+ggx/smith_ggx.separable/schlick", {});
   EXPECT_LT(by_engine.largest, 1e-6) << by_engine.at;
-  EXPECT_HAS(by_engine.pairs, "f0 = 0.08 Specular; only yours: metallic 0");
+  EXPECT_HAS(by_engine.pairs, "f0 = 0.08 Specular");
+  EXPECT_EQ(by_engine.only_a, std::vector<std::string>{"metallic 0"});
   EXPECT_HAS(text_of(c), "kd = albedo, alpha = roughness², f0 = f0\n");
   const auto metal =
       folder.write("m.glsl", replaced(tutorial("4.0"), "vec3 f0, vec3 albedo)",
@@ -37,7 +38,7 @@ TEST(CompareTerms, AWholeModelIsComparedWithOurs) {
   EXPECT_HAS(compare_with_model(metal + ":brdf{Metallic=0,1,0;BaseColor=0,1,0.5}",
                                 "lambert+ggx/smith_ggx.separable/schlick", {})
                  .pairs,
-             "kd = BaseColor, alpha = roughness², f0 = f0; only yours: Metallic 0");
+             "kd = BaseColor, alpha = roughness², f0 = f0");
 }
 
 TEST(CompareTerms, ADistributionBesideOursAndAMaskingReadBothWays) {
@@ -78,6 +79,36 @@ TEST(CompareTerms, AWidthIsTheOthersAlphaByTheMapThatItsNameAllows) {
   EXPECT_HAS(exponent.pairs, "alpha = √(2/(shininess + 2))");
   const auto slip = compared("alpha 0.1 1 0.5", "(alpha * alpha)");
   EXPECT_GT(slip.largest, 0.5) << "a square too many is no map that a name allows";
+}
+
+TEST(CompareTerms, WhatOnlyOneSideHasIsNamedAndCanBeSet) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path = folder.write(
+      "coat.glsl", model_of("float roughness 0.1 1 0.5, vec3 f0 0 1 0.04, float coat 0 1 0",
+                            "(f0 + (1.0 - f0) * p) * D_GGX(NoH, roughness * roughness) * "
+                            "V_Smith(NoL, NoV, roughness * roughness) * (1.0 - 0.3 * coat)"));
+  const std::string ours = "lambert+ggx/smith_ggx.correlated/schlick";
+  const auto c = compare_with_model(path + ":model", ours, {});
+  EXPECT_EQ(c.only_a, std::vector<std::string>{"coat 0 to 1"});
+  EXPECT_EQ(c.only_b, std::vector<std::string>{"kd 0.2"});
+  EXPECT_HAS(text_of(c), ours + ": kd 0.2; --set NAME=VALUE sets it");
+  EXPECT_GT(c.largest, 0.1);
+  const auto set = compare_with_model(path + ":model", ours, {{"coat", {0, 0}}, {"kd", {0, 0}}});
+  EXPECT_LT(set.largest, 1e-6) << set.at;
+  EXPECT_EQ(set.only_b, std::vector<std::string>{"kd 0"});
+  EXPECT_HAS(test::refusal(
+                 [&] {
+                   compare_with_model(path + ":model", ours, {{"kdd", {0, 0}}});
+                 },
+                 Exit::usage),
+             "has a parameter 'kdd'");
+  EXPECT_HAS(test::refusal(
+                 [&] {
+                   compare_with_model(path + ":model", ours, {{"alpha", {0.1, 0.1}}});
+                 },
+                 Exit::usage),
+             "alpha is roughness² here: set that");
 }
 
 TEST(CompareTerms, TwoWidthsVaryOnBothSides) {

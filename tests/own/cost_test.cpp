@@ -47,16 +47,46 @@ OfTheKind kind_of(const std::string& parameters, const std::string& value) {
   return model_of_the_kind(OwnModel(model_of(parameters, value)).term);
 }
 
-TEST(OwnCost, AHighlightThatIsNoneOfOursStandsBesideOurUsualModel) {
+TEST(OwnCost, AHighlightThatIsNoneOfOursStandsBesideTheNearestOfOurModels) {
   SKIP_WITHOUT_SHADERS;
-  const std::string odd = "vec3(pow(NoH, 3.0 / (roughness * roughness)))";
+  const std::string power = "vec3(pow(NoH, 3.0 / (roughness * roughness)))";
+  EXPECT_EQ(kind_of("float roughness 0.1 1 0.5", power).spec, "blinn_phong/implicit/schlick");
+  const std::string odd =
+      "vec3(D_GGX(NoH, roughness * roughness) * (0.7 + 0.3 * NoL * NoV) * V_Smith(NoL, NoV, "
+      "roughness))";
   EXPECT_EQ(kind_of("float roughness 0.1 1 0.5", odd).spec, "ggx/smith_ggx.correlated/schlick");
   EXPECT_EQ(kind_of("float roughness 0.1 1 0.5, vec3 albedo 0 1 0.5", "albedo / PI + " + odd).spec,
             "lambert+ggx/smith_ggx.correlated/schlick");
-  EXPECT_EQ(kind_of("float roughness 0.1 1 0.5, vec3 albedo 0 1 0.5, float clearCoat 0 1 1",
-                    "albedo / PI + clearCoat * " + odd)
-                .spec,
-            "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick");
+}
+
+TEST(OwnCost, ACoatCountsAsACoat) {
+  SKIP_WITHOUT_SHADERS;
+  const auto coated =
+      kind_of("float roughness 0.1 1 0.5, vec3 albedo 0 1 0.5, float clearCoat 0 1 1",
+              "albedo / PI + vec3((clearCoat + 1.0) * D_GGX(NoH, roughness * roughness) * (0.7 + "
+              "0.3 * NoL * NoV) * V_Smith(NoL, NoV, roughness))");
+  EXPECT_EQ(coated.spec,
+            "lambert+ggx/smith_ggx.correlated/schlick+coat:ggx/smith_ggx.correlated/schlick");
+  // A coat is white: its lobe is one channel's, and takes from what lies below.
+  const std::string lobe = "ggx/smith_ggx.correlated/schlick";
+  EXPECT_EQ(coated.operations, operations_in("lambert+" + lobe, 3) + operations_in(lobe, 1) + 7);
+  EXPECT_LT(coated.operations, operations_in("lambert+" + lobe + "+" + lobe, 3));
+}
+
+TEST(OwnCost, ASheenStandsBesideCharlieWhateverItsWidthIsCalled) {
+  SKIP_WITHOUT_SHADERS;
+  const auto sheen = [](const std::string& name, const std::string& inverse) {
+    return kind_of("float " + name + ", vec3 sheenColor 0 1 0.5",
+                   "sheenColor * (2.0 + " + inverse + ") * pow(sqrt(1.0 - NoH * NoH), " + inverse +
+                       ") / (2.0 * PI) / (4.0 * (NoL + NoV - NoL * NoV))")
+        .spec;
+  };
+  for (const auto& [name, inverse] :
+       {std::pair<std::string, std::string>{"roughness 0.1 1 0.5", "(1.0 / roughness)"},
+        {"sheenRoughness 0.3 1 0.5", "(1.0 / (sheenRoughness * sheenRoughness))"},
+        {"fuzz 0 0.9 0.5", "(1.0 / (1.0 - fuzz))"},
+        {"sharpness 1 10 2", "sharpness"}})
+    EXPECT_EQ(sheen(name, inverse), "charlie/smith_charlie.correlated/constant") << name;
 }
 
 TEST(OwnCost, AHighlightOfWhiteMetalsOnlyIsSeen) {

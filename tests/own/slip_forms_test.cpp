@@ -1,0 +1,230 @@
+// Slips that no factor and no map makes a form of ours: each is named, in a term and in a whole
+// model.
+#include "reports/own/slip_forms.h"
+
+#include "own/own_shaders.h"
+#include "refusal.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+std::string distribution_of(const std::string& name, const std::string& body) {
+  return "// " + name + " 0.1 1 0.5\nfloat D_term(float NoH, float " + name + ") {\n  " + body +
+         "\n}\n";
+}
+std::string masking_of(const std::string& body) {
+  return "// alpha 0.1 1 0.5\nfloat lambda(float c, float alpha) { return 0.5 * (-1.0 + "
+         "sqrt(1.0 + alpha * alpha * (1.0 / (c * c) - 1.0))); }\n"
+         "float V_term(float NoL, float NoV, float alpha) {\n  float a2 = alpha * alpha;\n  " +
+         body + "\n}\n";
+}
+/// The second function's audit, which takes the first as a help.
+const FunctionAudit& masking(const std::string& body) {
+  static std::map<std::string, FunctionAudit> known;
+  const auto [at, fresh] = known.try_emplace(body);
+  if (fresh) {
+    const test::Folder folder;
+    at->second = audit_file(folder.write("case.glsl", masking_of(body)) + ":V_term")[0];
+  }
+  return at->second;
+}
+
+TEST(SlipForms, ACosineOfTheHalfVectorThatIsSquaredTwiceOrNotAtAllIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto ggx_with = [](const std::string& square) {
+    return slips(audited(distribution_of(
+        "alpha", "float a2 = alpha * alpha, c = " + square +
+                     ", d = c * (a2 - 1.0) + 1.0;\n  return a2 / (3.14159265358979 * d * d);")));
+  };
+  EXPECT_EQ(ggx_with("NoH * NoH"), "");
+  EXPECT_EQ(ggx_with("pow(NoH, 2.0)"), "");
+  EXPECT_HAS(ggx_with("pow(NoH * NoH, 2.0)"), "NoH is squared twice");
+  EXPECT_HAS(ggx_with("NoH"), "NoH stands where NoH² belongs");
+  const auto beckmann_with = [](const std::string& square, const std::string& fourth) {
+    return slips(audited(distribution_of(
+        "m", "float m2 = m * m, c = " + square +
+                 ";\n  return exp((c - 1.0) / (m2 * c)) / (3.14159265358979 * m2 * " + fourth +
+                 ");")));
+  };
+  EXPECT_EQ(beckmann_with("NoH * NoH", "c * c"), "");
+  EXPECT_HAS(beckmann_with("NoH * NoH * NoH * NoH", "c * c"), "NoH is squared twice");
+  EXPECT_HAS(beckmann_with("NoH * NoH", "1.0"), "the division by NoH⁴ is missing");
+  EXPECT_HAS(beckmann_with("NoH * NoH", "c"), "NoH² stands below where NoH⁴ belongs");
+  const auto whole = OwnSlips(model_of(
+      "float roughness 0.1 1 0.5, vec3 f0 0 1 0.04",
+      "(f0 + (1.0 - f0) * p) * D_GGX(NoH * NoH, roughness * roughness) * V_Smith(NoL, NoV, "
+      "roughness * roughness)"));
+  EXPECT_HAS(whole.slips, "NoH is squared twice");
+}
+
+TEST(SlipForms, ANormOverDirectionsIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto phong = [](const std::string& norm) {
+    return slips(audited("// n 1 200 20\nfloat D(float NoH, float n) { return " + norm +
+                         " * pow(NoH, n); }\n"));
+  };
+  EXPECT_EQ(phong("(n + 2.0) / 6.28318530717959"), "");
+  EXPECT_HAS(phong("(n + 1.0) / 6.28318530717959"), "normalised over the hemisphere, ∫ D dω = 1");
+  EXPECT_HAS(phong("(n + 1.0) / 12.5663706143592"), "normalised over the whole sphere");
+  EXPECT_HAS(slips(audited(distribution_of(
+                 "alpha",
+                 "float k = 2.0 / (alpha * alpha);\n  return k / (6.28318530717959 * (1.0 - "
+                 "exp(-k))) * exp(k * (NoH - 1.0));"))),
+             "normalised over the hemisphere");
+}
+
+TEST(SlipForms, ASquareRootThatIsMissingInSmithsMaskingIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string tan2 = "float tl = 1.0 / (NoL * NoL) - 1.0, tv = 1.0 / (NoV * NoV) - 1.0;\n  ";
+  const auto over = [](const std::string& g) { return "return (" + g + ") / (4.0 * NoL * NoV);"; };
+  // The same form in four spellings.
+  for (const auto& right :
+       {over("1.0 / (1.0 + lambda(NoL, alpha) + lambda(NoV, alpha))"),
+        std::string("return 0.5 / (NoV * sqrt(NoL * NoL * (1.0 - a2) + a2) + NoL * sqrt(NoV * NoV "
+                    "* (1.0 - a2) + a2));"),
+        tan2 + over("2.0 / (sqrt(1.0 + a2 * tl) + sqrt(1.0 + a2 * tv))"),
+        over("2.0 * NoL / (NoL + sqrt(a2 + (1.0 - a2) * NoL * NoL)) * 2.0 * NoV / (NoV + sqrt(a2 "
+             "+ (1.0 - a2) * NoV * NoV))")})
+    EXPECT_EQ(slips(masking(right)), "") << right;
+  for (const auto& wrong :
+       {std::string("return 0.5 / (NoV * (NoL * NoL * (1.0 - a2) + a2) + NoL * (NoV * NoV * (1.0 - "
+                    "a2) + a2));"),
+        tan2 + over("1.0 / (1.0 + 0.5 * a2 * tl + 0.5 * a2 * tv)"),
+        tan2 + over("2.0 / (1.0 + (1.0 + a2 * tl)) * 2.0 / (1.0 + (1.0 + a2 * tv))"),
+        over("2.0 * NoL / (NoL + a2 + (1.0 - a2) * NoL * NoL) * 2.0 * NoV / (NoV + a2 + (1.0 - a2) "
+             "* NoV * NoV)")})
+    EXPECT_HAS(slips(masking(wrong)), "the square root of Smith's masking is missing");
+  EXPECT_HAS(slips(masking(tan2 + over("1.0 / (1.0 + 0.5 * sqrt(1.0 + a2 * tl) + 0.5 * sqrt(1.0 + "
+                                       "a2 * tv))"))),
+             "−1 is missing in Smith's Λ");
+  EXPECT_HAS(slips(masking("return 0.5 / (NoV * sqrt(NoL * NoL + a2) + NoL * sqrt(NoV * NoV + "
+                           "a2));")),
+             "(1 − alpha²) is missing");
+  EXPECT_HAS(
+      slips(audited("// alpha 0.1 1 0.5\nfloat G1_Smith(float NoV, float alpha) { float t = 1.0 / "
+                    "(NoV * NoV) - 1.0; return 2.0 / (1.0 + 1.0 + alpha * alpha * t); }\n")),
+      "the square root of Smith's masking is missing");
+  const auto whole = OwnSlips(replaced(
+      model_of("float roughness 0.1 1 0.5, vec3 f0 0 1 0.04",
+               "(f0 + (1.0 - f0) * p) * D_GGX(NoH, roughness * roughness) * V_Smith(NoL, NoV, "
+               "roughness * roughness)"),
+      "NoL * sqrt(NoV * NoV * (1.0 - q) + q)", "NoL * (NoV * NoV * (1.0 - q) + q)"));
+  EXPECT_EQ(whole.slips, "") << "one root of two is none of the forms";
+}
+
+TEST(SlipForms, AClampThatHoldsACosineIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string smith =
+      "return 0.5 / (NoV * sqrt(NoL * NoL * (1.0 - a2) + a2) + NoL * sqrt(NoV * NoV * (1.0 - a2) + "
+      "a2));";
+  EXPECT_EQ(slips(masking("NoV = max(NoV, 1e-4);\n  " + smith)), "");
+  EXPECT_HAS(slips(masking("NoV = min(NoV, 1e-4);\n  " + smith)), "NoV changes nothing: a clamp");
+  EXPECT_HAS(slips(masking("a2 = min(a2, 0.001);\n  " + smith)), "alpha changes nothing");
+  const auto grooves = [](const std::string& g) {
+    return slips(
+        audited("float G_CT(float NoL, float NoV, float NoH, float VoH) {\n  float a = 2.0 * NoH * "
+                "NoV / VoH, b = 2.0 * NoH * NoL / VoH;\n  return " +
+                g + ";\n}\n"));
+  };
+  EXPECT_EQ(grooves("min(1.0, min(a, b))"), "");
+  EXPECT_EQ(grooves("clamp(min(a, b), 0.0, 1.0)"), "");
+  EXPECT_HAS(grooves("max(1.0, min(a, b))"), "max stands where min belongs");
+  EXPECT_HAS(grooves("min(1.0, max(a, b))"), "max stands where min belongs");
+  EXPECT_HAS(grooves("min(a, b)"), "the 1 is missing");
+}
+
+TEST(SlipForms, LightOfOnePolarisationIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& value) {
+    return slips(
+        audited("// eta 1.1 2.5 1.5\nfloat F_Dielectric(float VoH, float eta) {\n  float t = "
+                "sqrt(1.0 - (1.0 - VoH * VoH) / (eta * eta));\n  float s = (VoH - eta * t) / (VoH "
+                "+ eta * t), p = (eta * VoH - t) / (eta * VoH + t);\n  return " +
+                value + ";\n}\n"));
+  };
+  EXPECT_EQ(of("0.5 * (s * s + p * p)"), "");
+  EXPECT_EQ(of("(s * s + p * p) / 2.0"), "");
+  EXPECT_HAS(of("s * s"), "across the plane of incidence (s)");
+  EXPECT_HAS(of("p * p"), "in the plane of incidence (p)");
+  EXPECT_HAS(of("s * s + p * p"), "the sum of both polarisations");
+  const auto whole = [](const std::string& f) {
+    return OwnSlips(
+               "float fresnel(float c, float eta) { float t = sqrt(1.0 - (1.0 - c * c) / (eta "
+               "* eta)), s = (c - eta * t) / (c + eta * t), p = (eta * c - t) / (eta * c + "
+               "t); return " +
+               f + "; }\n" +
+               model_of("float roughness 0.1 1 0.5, float eta 1.1 2.5 1.5, vec3 kd 0 1 0.3",
+                        "kd / PI + vec3(fresnel(VoH, eta) * D_GGX(NoH, roughness * roughness) "
+                        "* V_Smith(NoL, NoV, roughness * roughness))"))
+        .slips;
+  };
+  EXPECT_EQ(whole("0.5 * (s * s + p * p)"), "");
+  EXPECT_HAS(whole("s * s"), "(s)");
+}
+
+std::string metal(const std::string& f) {
+  return OwnSlips(model_of("float roughness 0.1 1 0.5, float metallic 0 1 0, vec3 albedo 0 1 0.5",
+                           "albedo * (1.0 - metallic) * (1.0 - p) / PI + D_GGX(NoH, roughness * "
+                           "roughness) * V_Smith(NoL, NoV, roughness * roughness) * " +
+                               f))
+      .slips;
+}
+
+TEST(SlipForms, AnF0ThatIsMixedInAfterFresnelsTermIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_EQ(metal("mix(mix(vec3(0.04), albedo, metallic), vec3(1.0), p)"), "");
+  EXPECT_EQ(metal("mix(vec3(0.04 + 0.96 * p), albedo + (1.0 - albedo) * p, metallic)"), "")
+      << "the same: Schlick's term is linear in F0";
+  EXPECT_HAS(metal("mix(vec3(0.04 + 0.96 * p), albedo, metallic)"),
+             "its metals have no Fresnel term");
+}
+
+TEST(SlipForms, ACosineOfTheSurfaceInFresnelsTermIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& power) {
+    return OwnSlips(model_of("float roughness 0.1 1 0.5, vec3 f0 0 1 0.04",
+                             "D_GGX(NoH, roughness * roughness) * V_Smith(NoL, NoV, roughness * "
+                             "roughness) * (f0 + (1.0 - f0) * " +
+                                 power + ")"))
+        .slips;
+  };
+  EXPECT_EQ(of("exp2((-5.55473 * VoH - 6.98316) * VoH)"), "");
+  EXPECT_EQ(of("pow5(1.0 - clamp(dot(L, H), 0.0, 1.0))"), "");
+  EXPECT_HAS(of("pow5(1.0 - NoL)"), "takes NoL where VoH belongs");
+  EXPECT_HAS(of("exp2((-5.55473 * NoV - 6.98316) * NoV)"), "takes NoV where VoH belongs");
+  EXPECT_HAS(of("pow5(1.0 - max(dot(L, V), 0.0))"), "takes LoV where VoH belongs");
+}
+
+TEST(SlipForms, TheKOfImageLightIsAskedAsThatOfLampsIs) {
+  SKIP_WITHOUT_SHADERS;
+  const auto schlick = [](const std::string& k) {
+    return OwnSlips("float g1(float c, float k) { return c / (c * (1.0 - k) + k); }\n" +
+                    model_of("float roughness 0.1 1 0.5, vec3 f0 0 1 0.04",
+                             "D_GGX(NoH, roughness * roughness) * g1(NoL, " + k + ") * g1(NoV, " +
+                                 k + ") / (4.0 * NoL * NoV) * (f0 + (1.0 - f0) * p)"));
+  };
+  const auto asked = [](const OwnSlips& s) {
+    std::string all;
+    if (s.model)
+      for (const auto& c : to_check(
+               *s.model,
+               OwnModel(model_of("float roughness 0.1 1 0.5", "vec3(roughness)")).parameters[0]))
+        all += c + "\n";
+    return all;
+  };
+  const auto image = schlick("0.5 * roughness * roughness");
+  EXPECT_EQ(image.slips, "");
+  EXPECT_HAS(asked(image), "its k is that of image light, alpha/2");
+  const auto lamps = schlick("(roughness + 1.0) * (roughness + 1.0) / 8.0");
+  EXPECT_EQ(lamps.slips, "");
+  EXPECT_HAS(asked(lamps), "its k is that of direct light");
+  EXPECT_HAS(schlick("0.5 * pow(roughness, 4.0)").slips,
+             "alpha is roughness² in D and roughness⁴ in V");
+  EXPECT_HAS(schlick("roughness * roughness").slips,
+             "k is alpha: Schlick's masking has k = alpha/2");
+}
+
+}  // namespace
+}  // namespace gonio
