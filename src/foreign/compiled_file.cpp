@@ -21,8 +21,8 @@ namespace gonio::foreign {
 
 namespace {
 
-/// OpTypeStruct
-constexpr std::uint32_t spirv_struct = 30;
+/// OpTypeVoid, OpTypeStruct
+constexpr std::uint32_t spirv_void = 19, spirv_struct = 30;
 
 std::mutex files_mutex;
 std::map<std::string, std::shared_ptr<const Compiled>>& files() {
@@ -30,17 +30,26 @@ std::map<std::string, std::shared_ptr<const Compiled>>& files() {
   return all;
 }
 
-/// Functions that give a number or a colour; the last of those that share a name.
-std::map<std::string, Id> functions_of(const SpirvModule& m) {
-  std::map<std::string, Id> all;
+/// The person's name of a function; empty where it is none of theirs.
+std::string name_of(const SpirvModule& m, Id id, Language language) {
+  auto name = m.short_name(id);
+  if (name == "person_main") return "main";  // as a text's own main is compiled
+  const bool is_ours = name.starts_with("gonio_") || name.starts_with("@gonio_") ||
+                       (name == "main" && language != Language::spirv);
+  return is_ours ? "" : name;
+}
+
+/// Takes functions that give a number or a colour, and those that give nothing; the last of those that share a name.
+void take_functions(Compiled& c) {
+  const SpirvModule& m = *c.module;
   for (const auto& [id, f] : m.functions()) {
-    const auto name = m.short_name(id);
-    if (name.starts_with("gonio_") || name.empty() || name == "main") continue;
+    const auto name = name_of(m, id, c.source.language);
+    if (name.empty()) continue;
     const bool is_value = m.is_of_numbers(f.result) && m.type(f.result).op != spirv_struct;
-    const auto op_size = is_value ? m.size(f.result) : 0;
-    if (op_size == 1 || op_size == 3 || op_size == 4) all[name] = id;
+    const auto size = is_value ? m.size(f.result) : 0;
+    if (size == 1 || size == 3 || size == 4) c.functions[name] = id;
+    if (m.type(f.result).op == spirv_void) c.void_functions[name] = id;
   }
-  return all;
 }
 
 /// Line of the first array of a text with more elements than are taken, which a module names without its line; 0: none.
@@ -57,10 +66,10 @@ int line_of_array(std::string_view text) {
 }
 
 std::shared_ptr<const Compiled> compiled(Source source) {
-  auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr, {}});
+  auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr, {}, {}});
   try {
     c->module = std::make_unique<SpirvModule>(compile(c->source));
-    c->functions = functions_of(*c->module);
+    take_functions(*c);
   } catch (const Refused& r) {
     refuse(c->source.path, r.line > 0 ? r : Refused(r.what(), line_of_array(c->source.text)));
   } catch (const std::out_of_range&) {

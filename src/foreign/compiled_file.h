@@ -18,7 +18,8 @@ inline constexpr std::uint32_t spirv_pointer = 32;
 struct Compiled {
   Source source;
   std::unique_ptr<const SpirvModule> module;
-  std::map<std::string, Id> functions;  ///< that give a number or a colour, by name
+  std::map<std::string, Id> functions;       ///< that give a number or a colour, by name
+  std::map<std::string, Id> void_functions;  ///< a stage's main among them
 };
 
 /// The file, compiled once in a run.  \throws Error  bad input

@@ -66,6 +66,9 @@ class Builder {
   Function built() {
     const auto& all = c_.functions;
     const auto id = all.find(f_.name.function);
+    if (const auto without = c_.void_functions.find(f_.name.function);
+        id == all.end() && without != c_.void_functions.end())
+      refuse(f_.name.file, why_none(without->second));
     if (id == all.end()) {
       std::vector<std::string_view> names;
       for (const auto& [n, i] : all) names.push_back(n);
@@ -79,7 +82,7 @@ class Builder {
                       return bind(p, n, size, k);
                     });
     } catch (const Refused& r) {
-      refuse(f_.name.file, r);
+      refuse(f_.name.file, r.line > 0 ? r : Refused(r.what(), f_.line));
     } catch (const std::out_of_range&) {
       throw bad_input(f_.name.file, fmt::format("line {}", f_.line),
                       "SPIR-V that refers to what it has not", "a function of numbers");
@@ -142,6 +145,24 @@ class Builder {
       f_.arguments.push_back({name, stands_for});
   }
 
+  /// Why a function that gives nothing cannot be run: what it does that no function of numbers does, or that it gives nothing.
+  Refused why_none(Id function) const {
+    const int line = m_.functions().at(function).line;
+    try {
+      std::size_t count = 0;
+      translate(m_, function, [&](Program& p, const std::string&, std::size_t size, Kind kind) {
+        std::vector<Ref> all;
+        for (std::size_t k = 0; k < size; ++k)
+          all.push_back(kind == Kind::number ? p.input(false, count++) : p.constant(1, kind));
+        return all;
+      });
+    } catch (const Refused& r) {
+      return {r.what(), r.line > 0 ? r.line : line};
+    } catch (const std::out_of_range&) {
+      // It gives nothing all the same.
+    }
+    return {"no value that it returns", line};
+  }
   /// True of a variable of the file, or a member of one, whether or not the function reads it.
   bool is_global(const std::string& name) const {
     return std::ranges::any_of(m_.globals(), [&](const Instruction& g) {
@@ -315,7 +336,9 @@ Function read_function(const Name& name, std::optional<Stands> as) {
 std::vector<Entry> list_functions(const std::string& file) {
   const auto c = file_of(file);
   std::vector<Entry> all;
-  for (const auto& [name, id] : c->functions) {
+  auto named = c->functions;
+  named.insert(c->void_functions.begin(), c->void_functions.end());
+  for (const auto& [name, id] : named) {
     Entry e{name, c->module->functions().at(id).line};
     for (const auto& [argument, type] : c->module->functions().at(id).parameters)
       e.arguments.emplace_back(c->module->name(argument));

@@ -152,9 +152,8 @@ class Includes {
   double rough_albedo(const std::vector<double>& p, bool cosine) const {
     constexpr int rings = 64, columns = 16;
     constexpr double theta_v = 0.5, most = std::numbers::pi / 2 + theta_v;
-    Interpreter<double> run(f_.programs[0]);
-    run.set(p);
-    double sum = 0;
+    std::vector<std::array<double, 11>> at;
+    std::vector<double> weights;
     for (int i = 0; i < rings; ++i)
       for (int j = 0; j < columns; ++j) {
         const double t = (i + 0.5) / rings, rho = most * t * t * t;
@@ -163,15 +162,17 @@ class Includes {
         const double x = along * std::cos(theta_v) - std::cos(rho) * std::sin(theta_v);
         const double z = along * std::sin(theta_v) + std::cos(rho) * std::cos(theta_v);
         if (z <= 0) continue;
-        const auto angles =
-            angles_between(std::acos(std::min(z, 1.0)), std::atan2(across, x), theta_v, 0);
-        double f = 0;
-        run.run(
-            1, [&](std::size_t k, std::size_t) { return angles[k]; },
-            [&](std::size_t, std::size_t, double v) { f = v; });
+        at.push_back(
+            angles_between(std::acos(std::min(z, 1.0)), std::atan2(across, x), theta_v, 0));
         const double width = most * 3 * t * t / rings * 2 * std::numbers::pi / columns;
-        sum += f * (cosine ? 1 : z) * std::sin(rho) * width;
+        weights.push_back((cosine ? 1 : z) * std::sin(rho) * width);
       }
+    Interpreter<double> run(f_.programs[0], at.size());
+    run.set(p);
+    double sum = 0;
+    run.run(
+        at.size(), [&](std::size_t k, std::size_t j) { return at[j][k]; },
+        [&](std::size_t, std::size_t j, double v) { sum += v * weights[j]; });
     return sum;
   }
   /// Guesses whether a value is π times f.  A colour at 1, with the others dark, gives an albedo near 1, or else near π, where it

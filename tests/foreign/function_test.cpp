@@ -170,6 +170,36 @@ TEST(Function, RefusalsNameThePersonsLine) {
       "n=1");
 }
 
+TEST(Function, AMainIsListedWithWhatItCannotBeRunFor) {
+  SKIP_WITHOUT_SHADERS;
+  const auto main_of = [](const std::string& text, const std::string& name) {
+    const Written w(text, name);
+    for (const auto& e : list_functions(w.path))
+      if (e.function == "main") return e;
+    return Entry{};
+  };
+  const std::string d = "float D(float NoH) { return NoH; }\n";
+  const auto textured = main_of(
+      "uniform sampler2D tex;\nin vec3 N; in vec3 L; in vec3 V; in vec2 uv;\nout vec4 color;\n" +
+          d + "void main() {\n  color = vec4(texture(tex, uv).rgb * D(dot(N, L)), 1.0);\n}\n",
+      "my.frag");
+  EXPECT_HAS(textured.refused, "line 6: found a texture is read");
+  EXPECT_EQ(textured.line, 5);
+  const auto plain_main = main_of("in vec3 N; in vec3 L;\nout vec4 color;\n" + d +
+                                      "void main() {\n  color = vec4(D(dot(N, L)));\n}\n",
+                                  "my.frag");
+  EXPECT_HAS(plain_main.refused, "line 4: found no value that it returns");
+  const auto hlsl = main_of(
+      "Texture2D tex; SamplerState smp;\n" + d +
+          "float4 main(float3 N : NORMAL, float3 L : TEXCOORD0, float3 V : TEXCOORD1, Texture2D t) "
+          ": SV_Target {\n  return float4(t.Sample(smp, V.xy).rgb * D(dot(N, L)), 1);\n}\n",
+      "my.hlsl");
+  EXPECT_HAS(hlsl.refused, "line 3: found a texture");
+  const Written taken("vec3 f(vec3 N, vec3 L, sampler2D t) {\n  return texture(t, N.xy).rgb;\n}\n");
+  EXPECT_HAS(list_functions(taken.path)[0].refused, "line 1: found a texture");
+  EXPECT_HAS(Written("void main() {}\n").refused(":main"), "no value that it returns");
+}
+
 TEST(Function, WhatIsTooMuchForTheCompilerIsOneLine) {
   SKIP_WITHOUT_SHADERS;
   std::string sum = "float f(float NoL) { return NoL";
