@@ -160,10 +160,14 @@ std::string hex_of(const Subject& s, Number number, std::span<const double> inpu
   return text;
 }
 
-Looked look(const Subject& s, const Arithmetic& a, const Tolerance& tolerance, std::uint64_t seed) {
+Looked look(const Subject& s,
+            const Arithmetic& a,
+            const Tolerance& tolerance,
+            std::uint64_t seed,
+            bool measures_errors) {
   if (a.number == Number::half && can_be_exhausted(s))
     return exhaustive(s, {a.flush, a.contract}, tolerance);
-  return search(s, a, {.tolerance = tolerance, .seed = seed});
+  return search(s, a, {.tolerance = tolerance, .seed = seed, .measures_errors = measures_errors});
 }
 
 Answer answer(const Question& q) {
@@ -182,7 +186,8 @@ Answer answer(const Question& q) {
     a.domain.emplace_back(i.name, std::vector{i.domain.low, i.domain.high});
 
   const bool relative = q.requirement.kind == Requirement::Kind::relative;
-  a.looked = look(q.subject, looked_at(q.arithmetic), tolerance_of(q.requirement, number), q.seed);
+  a.looked = look(q.subject, looked_at(q.arithmetic), tolerance_of(q.requirement, number), q.seed,
+                  q.measures_errors);
   a.worst_at = text_of(q.subject, a.looked.relative.at);
   a.worst_hex = hex_of(q.subject, number, a.looked.relative.at);
   if (const auto at = broken_at(a.looked, q.requirement); !at.empty()) {

@@ -25,8 +25,9 @@ struct Question {
   std::uint64_t seed = 1;
   /// Boxes of a proof, after which what is unproved is open; none: 20 000, and of what is dear as many as take seconds.
   std::optional<std::uint64_t> boxes{};
-  bool safe_from = true;  ///< whether the least value from which it holds is looked for, too
-  bool proves = true;     ///< false: what a search does not find stays open
+  bool safe_from = true;        ///< whether the least value from which it holds is looked for, too
+  bool proves = true;           ///< false: what a search does not find stays open
+  bool measures_errors = true;  ///< false: a search only looks for inputs without a value
 };
 
 /// An input for which a requirement does not hold.
@@ -74,7 +75,11 @@ struct Answer {
 /// \throws Error (wrong usage) of any GPU in mixed numbers, for which nothing is proved
 Answer answer(const Question&);
 /// Everything that looking finds: every input where they are halves and few, else a search.
-Looked look(const Subject&, const Arithmetic&, const Tolerance&, std::uint64_t seed);
+Looked look(const Subject&,
+            const Arithmetic&,
+            const Tolerance&,
+            std::uint64_t seed,
+            bool measures_errors = true);
 
 /// Least values of `subject.decides` from which each requirement holds: finite, nonnegative, and an error, relative and absolute,
 /// the question's own limit or the usual one; in half subnormal results kept, and flushed.  Where there is a proof, they are found

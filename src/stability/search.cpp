@@ -62,15 +62,24 @@ constexpr std::array kinds{Requirement::Kind::relative, Requirement::Kind::finit
 
 class Judge {
  public:
-  Judge(const Subject& s, const Arithmetic& a, const Tolerance& tolerance)
-      : s_(s), a_(a), format_(format_of(a.number)), tolerance_(tolerance) {}
+  Judge(const Subject& s, const Arithmetic& a, const Tolerance& tolerance, bool measures_errors)
+      : s_(s),
+        a_(a),
+        format_(format_of(a.number)),
+        tolerance_(tolerance),
+        measures_errors_(measures_errors) {}
 
+  bool measures_errors() const { return measures_errors_; }
   bool wide() const { return a_.number == Number::double_; }
 
   double value(const Inputs& in) const { return value_of(s_, a_, in); }
 
   /// \param condition  `beyond` is wanted too
   Judged of(const Inputs& in, bool condition) const {
+    if (!measures_errors_) {
+      if (std::abs(value(in)) <= format_.most) return {};
+      condition = false;
+    }
     if (wide()) return against(truth_of(s_, in, condition), in);
     WideValue f{value_of(s_, Number::double_, in), 0, 1};
     if (condition) f.condition = condition_in_double(in, f.value);
@@ -140,6 +149,7 @@ class Judge {
   Arithmetic a_;
   Format format_;
   Tolerance tolerance_;
+  bool measures_errors_;
 };
 
 /// Domain of a subject in a number: inputs near its edges, and steps within.
@@ -333,7 +343,10 @@ struct Found {
 Found from_one_seed(
     const Subject& s, const Judge& judge, const Domain& domain, std::uint64_t seed, double effort) {
   const auto times = [&](double n) { return static_cast<std::size_t>(std::ceil(n * effort)); };
-  const std::size_t seeds = times(judge.wide() ? 3000 : 40'000), starts = judge.wide() ? 12 : 24,
+  const std::size_t seeds = times(judge.wide() ? 3000 : 40'000),
+                    starts = judge.wide()              ? 12
+                             : judge.measures_errors() ? 24
+                                                       : 48,
                     steps = times(judge.wide() ? 300 : 3000);
   std::vector<Looking> seen(seeds);
   tbb::parallel_for(std::size_t{0}, seeds, [&](std::size_t i) {
@@ -341,7 +354,8 @@ Found from_one_seed(
     seen[i].in = domain.seed(draw);
     seen[i].judged = judge.of(seen[i].in, !judge.wide());
     auto next = seen[i].in;
-    if (const auto above = domain.above(next.size() - 1, next.back())) {
+    if (const auto above = domain.above(next.size() - 1, next.back());
+        above && judge.measures_errors()) {
       next.back() = *above;
       seen[i].judged.not_monotone = judge.goes_astray(seen[i].in, next);
     }
@@ -356,6 +370,7 @@ Found from_one_seed(
   };
   std::vector<Climb> climbs;
   for (const Aim aim : aims) {
+    if (!judge.measures_errors() && aim != Aim::no_value) continue;
     std::vector<std::size_t> order(seeds);
     std::iota(order.begin(), order.end(), 0U);
     std::ranges::stable_sort(order, std::greater<>(),
@@ -379,6 +394,7 @@ Found from_one_seed(
   });
   for (const auto& climb : climbs) {
     found.met.add(climb.met);
+    if (!judge.measures_errors()) continue;
     const auto j = judge.confirmed(climb.at.in);
     const auto keep = [&](Worst& w, double value) {
       if (value > w.value) w = {value, climb.at.in};
@@ -415,7 +431,7 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   looked.evidence = Evidence::searched;
   const bool is_usual = options.tolerance.relative == 0 && options.tolerance.absolute == 0;
   looked.tolerance = is_usual ? Tolerance(usual_tolerance(a.number)) : options.tolerance;
-  const Judge judge(s, a, looked.tolerance);
+  const Judge judge(s, a, looked.tolerance, options.measures_errors);
   const Domain domain(s, a.number);
   const double effort = options.effort * share_of_cheap(s);
   Found one = from_one_seed(s, judge, domain, 2 * options.seed, effort);

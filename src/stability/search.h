@@ -23,6 +23,8 @@ struct SearchOptions {
   Tolerance tolerance = 0;  ///< as Looked::lost has it; none of both: the usual one
   std::uint64_t seed = 1;
   double effort = 1;  ///< times as many seeds and steps
+  /// false: only inputs without a value are looked for, in a tenth of the time; all else of Looked is as where nothing is wrong
+  bool measures_errors = true;
 };
 
 /// Worst that is found, the same for a seed whatever the threads.
