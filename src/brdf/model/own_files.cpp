@@ -18,6 +18,22 @@ std::string with_file(const std::string& name, const auto& path_of) {
   return foreign::text_of(n);
 }
 
+/// True of a file, and of a text that was given in its place.
+bool is_file(const std::string& path) {
+  std::error_code unknown;
+  if (std::filesystem::exists(path, unknown)) return true;
+  try {
+    return !foreign::sha256_of(path).empty();
+  } catch (const Error&) {
+    return false;
+  }
+}
+
+[[noreturn]] void refuse_missing(const std::string& document, const std::string& file) {
+  throw bad_input(document, "model", file + ", which is not beside it",
+                  "a copy of that shader there");
+}
+
 }  // namespace
 
 std::string with_own_names(std::string_view spec,
@@ -49,20 +65,20 @@ std::string own_files_beside(const std::string& document, const std::string& spe
   return with_own_names(
       spec,
       [&](const std::string& name) {
-        return with_file(name,
-                         [&](const std::string& file) { return path_beside(document, file); });
+        return with_file(name, [&](const std::string& file) {
+          auto path = path_beside(document, file);
+          if (!is_file(path)) refuse_missing(document, file);
+          return path;
+        });
       },
       document);
 }
 
 std::string own_files_of_fit(const std::string& document, const std::string& spec) {
-  const auto is_there = [](const std::string& file) {
-    std::error_code unknown;
-    return std::filesystem::exists(file, unknown);
-  };
   const auto path_of = [&](const std::string& file) {
     const auto beside = path_beside(document, file);
-    if (is_there(beside) || !is_there(file)) return beside;
+    if (is_file(beside)) return beside;
+    if (!is_file(file)) refuse_missing(document, file);
     try {
       path_beside(document, std::filesystem::absolute(file).string());
     } catch (const Error&) {
