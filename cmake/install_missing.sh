@@ -5,7 +5,7 @@ gonio_tools=(g++:g++ cmake:cmake ninja:ninja-build ccache:ccache
   pkg-config:pkg-config)  # command:package
 gonio_libraries=(libceres-dev libeigen3-dev libopenexr-dev libtbb-dev libfmt-dev
   nlohmann-json3-dev libcli11-dev libxsimd-dev libgtest-dev
-  librapidcheck-dev libboost-dev nettle-dev libpugixml-dev libembree-dev libpng-dev
+  librapidcheck-dev libboost-dev nettle-dev libpugixml-dev libembree-dev libpng-dev libtiff-dev
   glslang-dev spirv-tools spirv-headers)
 
 install_missing() {
@@ -15,7 +15,7 @@ install_missing() {
   done
   if ! command -v apt-get >/dev/null; then
     echo "Needed: ${gonio_tools[*]%%:*}, and the libraries Ceres, Eigen 3, OpenEXR 3, oneTBB, Nettle, pugixml, fmt," \
-      "nlohmann-json, CLI11, xsimd 8, GoogleTest, rapidcheck, Embree 3, libpng, glslang and SPIRV-Tools, Boost.Math and Boost.Multiprecision where CMake finds them" \
+      "nlohmann-json, CLI11, xsimd 8, GoogleTest, rapidcheck, Embree 3, libpng, libtiff 4.5, glslang and SPIRV-Tools, Boost.Math and Boost.Multiprecision where CMake finds them" \
       "(Debian's names: ${gonio_libraries[*]})."
     [ ${#missing[@]} -eq 0 ] || { echo "Not found here: ${missing[*]}" >&2; return 1; }
     return 0

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Builds the wheel for Linux, in build/wheel_made/TAG/repaired, and tries it in a fresh virtual environment.
 #   cmake/wheel.sh [PYTHON]   the interpreter it is for (python3); from 3.12 on the wheel is of the stable ABI, for every later one
-# Its Ceres is built here without SuiteSparse, LAPACK and glog; auditwheel brings in whatever else a bare machine lacks, and each of these
+# Its Ceres is built here without SuiteSparse, LAPACK and glog, and its libtiff with zlib only; auditwheel brings in whatever else a bare machine lacks, and each of these
 # libraries is named below with its licence, or the wheel is refused.
 set -euo pipefail
 cd "$(dirname "$0")/.."
@@ -26,6 +26,21 @@ build_ceres() {
     cmake --build "$ceres/build" && cmake --install "$ceres/build" --prefix "$ceres/installed" >/dev/null
 }
 
+# libtiff as a static library, in build/tiff, from Debian's source with its patches: of packings only those that gonio reads, none of which needs more
+# than zlib.  (Debian's own links JBIG-KIT, which is under the GPL.)
+build_tiff() {
+  local tiff=$PWD/build/tiff patch
+  [ ! -e "$tiff/installed" ] || return 0
+  debian_source tiff "$tiff" && tar -xf "$tiff"/tiff_*.debian.tar.* -C "$tiff/source" &&
+    for patch in $(grep -v '^#' "$tiff/source/debian/patches/series"); do
+      patch -s -p1 -d "$tiff/source" <"$tiff/source/debian/patches/$patch" || return 1
+    done &&
+    cmake -S "$tiff/source" -B "$tiff/build" -G Ninja --log-level=WARNING -DCMAKE_BUILD_TYPE=Release -DCMAKE_POSITION_INDEPENDENT_CODE=ON \
+      -DBUILD_SHARED_LIBS=OFF -Dtiff-tools=OFF -Dtiff-tests=OFF -Dtiff-contrib=OFF -Dtiff-docs=OFF -Djpeg=OFF -Dold-jpeg=OFF -Djbig=OFF \
+      -Dlerc=OFF -Dlzma=OFF -Dzstd=OFF -Dwebp=OFF -Dlibdeflate=OFF -Dpixarlog=OFF -Dcxx=OFF &&
+    cmake --build "$tiff/build" && cmake --install "$tiff/build" --prefix "$tiff/installed" >/dev/null
+}
+
 # Licences of all that the wheel holds of others, in a folder.
 gather_licences() {
   local to=$1 entry
@@ -33,6 +48,7 @@ gather_licences() {
   for entry in "${bundled[@]}"; do cp "/usr/share/doc/${entry##*:}/copyright" "$to/${entry##*:}.txt"; done
   for entry in "${compiled_in[@]}"; do cp "/usr/share/doc/$entry/copyright" "$to/$entry.txt"; done
   cp build/ceres/source/LICENSE "$to/ceres-solver.txt"
+  cp build/tiff/source/LICENSE.md "$to/tiff.txt"
   cp "$("$python" -c 'import importlib.metadata as m; print(next(p.locate() for p in m.files("nanobind") if p.name == "LICENSE"))')" \
     "$to/nanobind.txt"
   # robin-map comes with nanobind, with its licence at the head of each file.
@@ -54,7 +70,7 @@ look_at_libraries() {
 
 asked=${1:-python3}
 tag=$("$asked" -c 'import sys; print("cp%d%d" % sys.version_info[:2])')
-build_ceres || { echo "Without Debian's source of Ceres: no wheel is built."; exit 0; }
+build_ceres && build_tiff || { echo "Without Debian's sources of Ceres and libtiff: no wheel is built."; exit 0; }
 at=build/wheel_tools/$tag
 { [ -x $at/bin/pip ] || "$asked" -m venv $at; } &&
   $at/bin/pip install -qq --disable-pip-version-check --require-hashes --only-binary :all: -r tests/python/wheel.txt ||
@@ -65,7 +81,7 @@ export PATH=$PWD/$at/bin:$PATH PYTHONDONTWRITEBYTECODE=1
 out=build/wheel_made/$tag
 rm -rf $out && mkdir -p $out
 echo "-- building"
-CXX=${CXX:-c++} CMAKE_ARGS="-DCMAKE_PREFIX_PATH=$PWD/build/ceres/installed" \
+CXX=${CXX:-c++} CMAKE_ARGS="-DCMAKE_PREFIX_PATH=$PWD/build/ceres/installed;$PWD/build/tiff/installed -DGONIO_TIFF=ON" \
   pip wheel -q --disable-pip-version-check --no-build-isolation --no-deps -w $out/linux .
 auditwheel repair -w $out/repaired $out/linux/*.whl >$out/auditwheel.txt 2>&1 || { cat $out/auditwheel.txt >&2; exit 1; }
 wheel unpack -d $out/unpacked $out/repaired/*.whl >/dev/null

@@ -34,6 +34,7 @@ parts = {
     "spirv-tools": ("Apache-2.0", []),
     "spirv-headers": ("MIT", []),
     "ceres-solver": ("BSD-3-Clause", []),
+    "tiff": ("libtiff", []),
     "nanobind": ("BSD-3-Clause", []),
     "robin-map": ("MIT", []),
 }
@@ -45,6 +46,9 @@ def version_of(part):
         text = Path("build/ceres/source/include/ceres/version.h").read_text()
         number = ".".join(re.search(rf"CERES_VERSION_{n} (\d+)", text)[1] for n in ("MAJOR", "MINOR", "REVISION"))
         return number, f"pkg:deb/debian/ceres-solver@{number}?arch=source"
+    if part == "tiff":
+        number = next(Path("build/tiff").glob("tiff_*.dsc")).stem.removeprefix("tiff_")
+        return number, f"pkg:deb/debian/tiff@{number.replace('+', '%2B')}?arch=source"
     if part in ("nanobind", "robin-map"):  # the second comes with the first
         number = importlib.metadata.version("nanobind")
         return number, f"pkg:pypi/nanobind@{number}" + ("#ext/robin_map" if part == "robin-map" else "")

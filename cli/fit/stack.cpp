@@ -11,7 +11,6 @@
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "image/image_file.h"
-#include "image/png_file.h"
 #include "stack/lamps.h"
 #include "stack/stack_reader.h"
 
@@ -27,15 +26,22 @@ struct StackCall : Common {
   bool linear = false;
 };
 
-/// Opens each image, which refuses those that are not light or of another size than the first; that size.
-Rectangle size_of_all(const Stack& s) {
+/// What the images of a stack share.
+struct ImagesInCommon {
   Rectangle size;
+  bool in_unit_range = true;  ///< their numbers go from 0 to 1
+};
+/// Opens each image, which refuses those that are not light or of another size than the first.
+ImagesInCommon look_at_all(const Stack& s) {
+  ImagesInCommon all;
+  Rectangle& size = all.size;
   for (const auto& image : s.images) {
     const auto file = open_image(s.path_of(image.path), s.linear);
     if (size.width == 0) size = {0, 0, file->width(), file->height()};
     expect_size_of(s.images[0].path, size.width, size.height, *file);
+    all.in_unit_range = all.in_unit_range && file->in_unit_range();
   }
-  return size;
+  return all;
 }
 
 Exit run(const StackCall& o) {
@@ -51,19 +57,16 @@ Exit run(const StackCall& o) {
     for (auto& image : s.images) image.scale = o.reflectance / (std::numbers::pi * *o.white);
   s.saturation = o.saturation;
   s.floor = o.floor;
-  const bool all_png = std::ranges::all_of(s.images, [&](const StackImage& image) {
-    return is_png(InputFile(s.path_of(image.path)).peek(8));
-  });
+  const auto [size, in_unit_range] = look_at_all(s);
   const std::pair<const char*, std::optional<double>> numbers[] = {
       {"--white", o.white}, {"--saturation", o.saturation}, {"--floor", o.floor}};
   for (const auto& [option, number] : numbers)
-    if (all_png && number && *number > 1)
-      throw wrong_usage(
-          fmt::format("{} {:g}: PNG files have numbers from 0 to 1 here; expected that of the file "
-                      "over 65535, {:.4g}",
-                      option, *number, *number / 65535));
-  if (!s.saturation && all_png) s.saturation = 1;  // the largest number that a PNG has
-  const Rectangle size = size_of_all(s);
+    if (in_unit_range && number && *number > 1)
+      throw wrong_usage(fmt::format(
+          "{} {:g}: files of 16 bits have numbers from 0 to 1 here; expected that of the "
+          "file over 65535, {:.4g}",
+          option, *number, *number / 65535));
+  if (!s.saturation && in_unit_range) s.saturation = 1;  // the largest number that they have
   const std::string text = to_json(s);
   write_file(o.output, text);
   if (o.json) {
@@ -88,17 +91,17 @@ void add_stack(CommandLine& line) {
            "lamp of each")
       .required();
   c.option("--images", o->images, "Folder of the images (default: that of the list)");
-  c.flag("--linear", o->linear, "The images are light, though PNG files do not say so (gAMA 1)");
+  c.flag("--linear", o->linear, "The images are light, though PNG and TIFF files do not say so");
   c.option("--white", o->white,
-           "Number that a white diffuse tile facing the lamp has in the images, of PNG files from "
-           "0 to 1: what gives f its scale")
+           "Number that a white diffuse tile facing the lamp has in the images, from 0 to 1 where "
+           "they have 16 bits: what gives f its scale")
       .in(1e-9, 1e9);
   c.option("--white-reflectance", o->reflectance, "Reflectance of that tile")
       .in(0.01, 1.0)
       .show_default();
   c.option("--saturation", o->saturation,
-           "Number of the images from which on light is clipped: left out (default: the largest of "
-           "PNG files)")
+           "Number of the images from which on light is clipped: left out (default: the largest "
+           "that 16 bits hold)")
       .in(1e-9, 1e30);
   c.option(
        "--floor", o->floor,

@@ -36,6 +36,8 @@ class ImageFile {
   std::size_t block_width() const { return block_width_; }
   std::size_t block_height() const { return block_height_; }
 
+  /// Whether its numbers go from 0 to 1: a file's whole ones over their largest.
+  bool in_unit_range() const { return in_unit_range_; }
   /// Bytes that it holds in memory while it is open.
   std::size_t held() const { return held_; }
 
@@ -49,11 +51,12 @@ class ImageFile {
  protected:
   std::string path_;
   std::size_t width_ = 0, height_ = 0, block_width_ = 1, block_height_ = 1, held_ = 0;
+  bool in_unit_range_ = false;
   std::vector<std::string> channels_;
 };
 
-/// Image of a path: OpenEXR of one part, scan lines or tiles, an array of NumPy's, or a PNG of light.  At most `longest_side` pixels wide or high.
-/// \param linear  said of a PNG that does not say that its numbers are light
+/// Image of a path: OpenEXR of one part, scan lines or tiles, an array of NumPy's, a PNG or a TIFF of light.  At most `longest_side` pixels wide or high.
+/// \param linear  said of a PNG or TIFF that does not say that its numbers are light
 std::unique_ptr<ImageFile> open_image(const std::string& path, bool linear = false);
 
 }  // namespace gonio

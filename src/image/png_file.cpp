@@ -76,6 +76,7 @@ class PngFile final : public ImageFile {
     samples_ = channels_.size() + ((type & PNG_COLOR_MASK_ALPHA) != 0 ? 1 : 0);
     row_.resize(width_ * samples_ * 2);
     block_width_ = width_;
+    in_unit_range_ = true;
   }
 
   void read(const Rectangle& part,

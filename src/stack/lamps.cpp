@@ -1,5 +1,6 @@
 #include "stack/lamps.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
@@ -36,11 +37,11 @@ std::string_view last_word(std::string_view& line) {
 fs::path image_in(const fs::path& folder, const std::string& name) {
   std::error_code none;
   const fs::path as_named = folder / name;
-  const auto ending_of_name = as_named.extension();
-  if ((ending_of_name == ".exr" || ending_of_name == ".npy" || ending_of_name == ".png") &&
+  constexpr std::array endings{".exr", ".npy", ".png", ".tif", ".tiff"};
+  if (std::ranges::find(endings, as_named.extension()) != endings.end() &&
       fs::exists(as_named, none))
     return as_named;
-  for (const char* ending : {".exr", ".npy", ".png"})
+  for (const char* ending : endings)
     if (const fs::path other = fs::path(as_named).replace_extension(ending);
         fs::exists(other, none))
       return other;
@@ -87,7 +88,7 @@ Stack stack_of_lamps(const std::string& list, const std::string& images, const s
     if (std::error_code none; !fs::exists(file, none))
       throw bad_input(list, place,
                       fmt::format("{}, which is not there", printable(file.string(), 100)),
-                      "an image of that name that ends in .exr, .npy or .png");
+                      "an image of that name that ends in .exr, .npy, .png or .tif");
     const fs::path relative = fs::proximate(file, beside.empty() ? fs::path(".") : beside);
     if (relative.is_absolute() || *relative.begin() == "..")
       throw bad_input(list, place, printable(file.string(), 100),

@@ -46,7 +46,7 @@ struct Description<SideMap<side>> {
 template <>
 inline constexpr auto description<StackImage> = FieldList{
     Field{"path", &StackImage::path,
-          "of an OpenEXR file, an array of NumPy's or a PNG of 16 bits, linear", not_empty},
+          "of an OpenEXR file, an array of NumPy's, a PNG of 16 bits or a TIFF, linear", not_empty},
     by_key(&StackImage::light), by_key(&StackImage::view),
     Field{"scale", &StackImage::scale, "what its numbers are multiplied with",
           Numbers{0, 1e30, true}, or_default}};
@@ -76,7 +76,9 @@ struct Description<Stack> {
               "number of the images up to which there is shadow or noise, left out",
               Numbers{0, 1e30}),
         field("linear", &Stack::linear,
-              "images in PNG are light, though they do not say so (gAMA 1)", or_default),
+              "images in PNG and TIFF are light, though they do not say so (gAMA 1, "
+              "TransferFunction)",
+              or_default),
         field("images", &Stack::images, "one for each pair of light and view", Entries{1, 10'000}),
         field("truth", if_there(&Stack::truth), "what gonio made the stack from")};
   }

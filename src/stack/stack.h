@@ -84,7 +84,7 @@ struct Stack {
   /// Numbers of the images, before they are scaled: from the one on a value is clipped light, up to the other it is a shadow or the camera's noise.
   /// Both are left out; none: none is.
   std::optional<double> saturation, floor;
-  bool linear = false;  ///< images in PNG are light, whatever they say of themselves
+  bool linear = false;  ///< images in PNG and TIFF are light, whatever they say of themselves
   std::vector<StackImage> images;
   std::optional<StackTruth> truth;
 

@@ -9,7 +9,6 @@
 #include "base/file.h"
 #include "base/sha256.h"
 #include "base/whole_loop.h"
-#include "image/png_file.h"
 #include "table/table.h"
 
 #include <fmt/format.h>
@@ -85,12 +84,11 @@ std::size_t StackReader::vectors(const std::string& name) {
   const std::string path = stack_.path_of(name);
   const auto [number, is_new] = map_number_.try_emplace(path, maps_.size());
   if (!is_new) return number->second;
-  InputFile vectors(path);
-  if (is_png(vectors.peek(8)))
-    throw bad_input(path, "byte 0", "a PNG, whose numbers are not below 0",
-                    "an image of vectors in OpenEXR or an array of NumPy's");
-  const auto stamp = vectors.stamp();
+  const auto stamp = InputFile(path).stamp();
   auto file = open(path);
+  if (file->in_unit_range())
+    throw bad_input(path, "header", "whole numbers, which are not below 0",
+                    "an image of vectors in OpenEXR or TIFF's floats, or an array of NumPy's");
   auto channels = channels_among(*file, xyz);
   if (channels.empty()) channels = channels_among(*file, rgb);
   if (channels.empty()) refuse_channels(*file, "X, Y and Z, or R, G and B");

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "cli/program.h"
 #include "image/exr.h"
+#include "tiff_bytes.h"
 
 #include <fmt/format.h>
 #include <sys/resource.h>
@@ -70,13 +71,24 @@ TEST(StackCommand, MakesAStackOfPhotographsAndTheListOfTheirLamps) {
   expect_one_line(gonio(f, "stack s/dome.lp --white-reflectance 0.9 -o s/x.json"), 2, "--white");
   expect_one_line(gonio(f, "stack s/dome.lp --saturation 1 --floor 2 -o s/x.json"), 2,
                   "--saturation");
-  expect_one_line(gonio(f, "stack s/dome.lp --images . -o s/x.json"), 3, ".exr, .npy or .png");
+  expect_one_line(gonio(f, "stack s/dome.lp --images . -o s/x.json"), 3,
+                  ".exr, .npy, .png or .tif");
   EXPECT_FALSE(fs::exists(f / "s/x.json"));
-  // Of PNG files a number of the file itself is 65535 times too large.
-  f.write("s/photo.png", "\x89PNG\r\n\x1a\n");
-  f.write("s/photo.lp", "1\nphoto.jpg 0 0 1\n");
-  expect_one_line(gonio(f, "stack s/photo.lp --white 26214 -o s/x.json"), 2, "over 65535, 0.4");
 }
+
+#ifdef GONIO_TIFF
+TEST(StackCommand, TakesPhotographsInTiffWithNumbersFromZeroToOne) {
+  const Folder f;
+  f.write("photo.tif", tiff_of({}));
+  f.write("photo.lp", "1\nphoto.jpg 0 0 1\n");
+  // A number of the file itself is 65535 times too large.
+  expect_one_line(gonio(f, "stack photo.lp --white 26214 -o x.json"), 2, "over 65535, 0.4");
+  EXPECT_EQ(gonio(f, "stack photo.lp --white 0.4 -o x.json --json").json()["saturation"], 1);
+  f.write("photo.tif", tiff_of({.is_line = false}));
+  expect_one_line(gonio(f, "stack photo.lp -o y.json"), 3, "photo.tif: TransferFunction");
+  EXPECT_EQ(gonio(f, "stack photo.lp --linear -o y.json --json").json()["linear"], true);
+}
+#endif
 
 /// The stack with the azimuths of all lights negated.
 void negate_lights(const Folder& f) {

@@ -18,6 +18,7 @@
 #include "table/foreign.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
+#include "tiff_bytes.h"
 
 namespace {
 
@@ -119,6 +120,8 @@ int main(int argc, char** argv) {
   Image small{3, 2, {"R", "Y"}, {{0, 1, 2, 3, 4, 5}, {1, 1, 2, 2, 3, 3}}, {{"a", "b"}}};
   save("parts", "lines", exr_bytes("lines", small));
   save("parts", "half", exr_bytes("half", small, Storage::half));
+  save("parts", "tiff", tiff_of({}));
+  save("parts", "tiff_of_floats", tiff_of({.channels = 1, .bits = 32}));
   const auto square = scene::test::square_gltf();
   save("gltf", "text", square.dump());
   save("gltf", "binary", scene::test::glb(square, scene::test::square_bytes()));
