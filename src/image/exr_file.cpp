@@ -65,8 +65,13 @@ class ExrFile : public ImageFile {
     }
     const bool direct = whole == part;
     std::vector<float> between(direct ? 0 : channels.size() * whole.size());
+    // OpenEXR fills a channel once, however often it is asked for.
+    const auto first_of = [&](std::size_t k) {
+      return static_cast<std::size_t>(std::ranges::find(channels, channels[k]) - channels.begin());
+    };
     Imf::FrameBuffer buffer;
     for (std::size_t k = 0; k < channels.size(); ++k) {
+      if (first_of(k) != k) continue;
       float* const first = direct ? to[k] : between.data() + k * whole.size();
       // The slice's base is the address of pixel (0, 0), which may lie elsewhere.
       const auto x = left_ + static_cast<std::ptrdiff_t>(whole.x);
@@ -89,11 +94,12 @@ class ExrFile : public ImageFile {
         lines_->readPixels(top_ + number(whole.y), top_ + number(whole.y + whole.height - 1));
       }
     });
-    if (direct) return;
-    for (std::size_t k = 0; k < channels.size(); ++k)
+    for (std::size_t k = 0; direct && k < channels.size(); ++k)
+      if (first_of(k) != k) std::copy_n(to[first_of(k)], part.size(), to[k]);
+    for (std::size_t k = 0; !direct && k < channels.size(); ++k)
       for (std::size_t y = 0; y < part.height; ++y)
-        std::copy_n(between.data() + k * whole.size() + (part.y + y - whole.y) * whole.width +
-                        (part.x - whole.x),
+        std::copy_n(between.data() + first_of(k) * whole.size() +
+                        (part.y + y - whole.y) * whole.width + (part.x - whole.x),
                     part.width, to[k] + y * part.width);
   }
 

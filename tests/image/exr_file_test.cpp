@@ -80,6 +80,22 @@ void expect_parts(const std::string& path, const std::vector<std::vector<float>>
   }
 }
 
+TEST(ExrFile, GivesAChannelAsOftenAsItIsAskedFor) {
+  const Folder f;
+  const auto all = planes();
+  for (const int tile : {0, 16}) {
+    const auto file = open_exr(foreign(f, Imf::ZIP_COMPRESSION, tile));
+    for (const Rectangle& part : {Rectangle{0, 0, width, height}, Rectangle{3, 5, 7, 9}}) {
+      std::vector<std::vector<float>> read(3, std::vector<float>(part.size(), -1));
+      const std::vector<float*> to{read[0].data(), read[1].data(), read[2].data()};
+      file->read(part, std::vector<std::size_t>{1, 2, 1}, to);
+      EXPECT_EQ(read[0][0], all[1][part.y * width + part.x]);
+      EXPECT_EQ(read[0], read[2]);
+      EXPECT_NE(read[0], read[1]);
+    }
+  }
+}
+
 TEST(ExrFile, PartsAreThoseOfTheWholeInLinesAndInTiles) {
   const Folder f;
   for (const auto packing :
