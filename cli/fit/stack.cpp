@@ -2,16 +2,22 @@
 #include "stack/stack.h"
 
 #include <algorithm>
+#include <limits>
 #include <numbers>
 #include <optional>
+#include <string>
+#include <tuple>
+#include <vector>
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/numbers.h"
 #include "base/text.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
 #include "image/image_file.h"
 #include "stack/lamps.h"
+#include "stack/mirror_ball.h"
 #include "stack/stack_reader.h"
 
 #include <fmt/format.h>
@@ -21,7 +27,8 @@ namespace {
 
 struct StackCall : Common {
   std::string lamps, images, output;
-  std::optional<double> white, saturation, floor;
+  std::optional<std::string> dark, flat, ball;
+  std::optional<double> white, saturation, floor, near;
   double reflectance = 1;
   bool linear = false;
 };
@@ -31,17 +38,30 @@ struct ImagesInCommon {
   Rectangle size;
   bool in_unit_range = true;  ///< their numbers go from 0 to 1
 };
-/// Opens each image, which refuses those that are not light or of another size than the first.
+/// Opens each image and frame, which refuses those that are not light or of another size than the first.
 ImagesInCommon look_at_all(const Stack& s) {
   ImagesInCommon all;
   Rectangle& size = all.size;
-  for (const auto& image : s.images) {
-    const auto file = open_image(s.path_of(image.path), s.linear);
+  std::vector<std::string> paths;
+  for (const auto& image : s.images) paths.push_back(image.path);
+  for (const auto& frame : {s.dark, s.flat})
+    if (frame) paths.push_back(*frame);
+  for (const auto& path : paths) {
+    const auto file = open_image(s.path_of(path), s.linear);
     if (size.width == 0) size = {0, 0, file->width(), file->height()};
-    expect_size_of(s.images[0].path, size.width, size.height, *file);
+    expect_size_of(paths[0], size.width, size.height, *file);
     all.in_unit_range = all.in_unit_range && file->in_unit_range();
   }
   return all;
+}
+
+MirrorBall ball_of(const std::string& words) {
+  std::vector<double> numbers;
+  for (const auto& word : split(std::string_view(words), ','))
+    numbers.push_back(number_from<double>(word).value_or(std::numeric_limits<double>::quiet_NaN()));
+  if (numbers.size() != 3 || !std::ranges::all_of(numbers, [](double x) { return x >= 0; }))
+    throw wrong_usage(fmt::format("--ball {}: expected X,Y,RADIUS in pixels", words));
+  return {numbers[0], numbers[1], numbers[2]};
 }
 
 Exit run(const StackCall& o) {
@@ -50,11 +70,34 @@ Exit run(const StackCall& o) {
     throw wrong_usage("--saturation: expected a number above that of --floor");
   if (o.reflectance != 1 && !o.white)
     throw wrong_usage("--white-reflectance: expected --white, the number that the tile has");
-  check_outputs({o.lamps}, {o.output});
-  Stack s = stack_of_lamps(o.lamps, o.images, o.output);
+  std::vector<std::string> inputs{o.lamps};
+  for (const auto& frame : {o.dark, o.flat})
+    if (frame) inputs.push_back(*frame);
+  check_outputs(inputs, {o.output});
+  if (o.ball && (o.near || !o.images.empty()))
+    throw wrong_usage(
+        fmt::format("--ball: it gives directions of the images in the folder that is "
+                    "named, so not with {}",
+                    o.near ? "--near" : "--images"));
+  Stack s = o.ball ? stack_of_ball(o.lamps, ball_of(*o.ball), o.output, o.linear,
+                                   {inputs.begin() + 1, inputs.end()})
+                   : stack_of_lamps(o.lamps, o.images, o.output);
   s.linear = o.linear;
+  for (const auto& [option, path, frame] :
+       {std::tuple{"--dark", &o.dark, &s.dark}, {"--flat", &o.flat, &s.flat}})
+    if (*path) *frame = name_in_stack(**path, o.output, **path, option);
   if (o.white)
     for (auto& image : s.images) image.scale = o.reflectance / (std::numbers::pi * *o.white);
+  if (o.near) {  // lamps of one brightness; the tile was in the middle, under the first of them
+    s.width = o.near;
+    std::optional<double> first;
+    for (auto& image : s.images) {
+      const Vector at = std::get<SideVector<Side::light>>(image.light).towards;
+      image.light = SidePosition<Side::light>{at};
+      image.scale *= dot(at, at) / first.value_or(dot(at, at));
+      if (!first) first = dot(at, at);
+    }
+  }
   s.saturation = o.saturation;
   s.floor = o.floor;
   const auto [size, in_unit_range] = look_at_all(s);
@@ -88,10 +131,24 @@ void add_stack(CommandLine& line) {
       "gonio stack dome.lp --linear --white 0.8 -o stack.json", run);
   c.option("LAMPS", o->lamps,
            "List of lamps, .lp: the number of images, then NAME X Y Z a line, the vector to the "
-           "lamp of each")
+           "lamp of each; with --ball the folder of the images")
       .required();
   c.option("--images", o->images, "Folder of the images (default: that of the list)");
   c.flag("--linear", o->linear, "The images are light, though PNG and TIFF files do not say so");
+  c.option(
+      "--ball", o->ball,
+      "X,Y,RADIUS of a mirror ball in the images, in pixels from their left and top edges: its "
+      "highlight shows where each lamp was");
+  c.option("--near", o->near,
+           "Width of the surface that the images show: the vectors to lamps are their places, in "
+           "the same unit, from the middle of the image (default: lamps are far away)")
+      .in(1e-9, 1e9);
+  c.option("--dark", o->dark,
+           "Photograph without light, as one with the lens cap on: its numbers are taken off all "
+           "others first");
+  c.option("--flat", o->flat,
+           "Photograph of a white sheet under even light: it shows how a lens darkens towards the "
+           "corners, and all others are divided by it");
   c.option("--white", o->white,
            "Number that a white diffuse tile facing the lamp has in the images, from 0 to 1 where "
            "they have 16 bits: what gives f its scale")

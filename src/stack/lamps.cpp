@@ -21,6 +21,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr std::uint64_t most_list_bytes = 1 << 22;
+constexpr std::array endings{".exr", ".npy", ".png", ".tif", ".tiff"};
 
 /// Takes the last word of a line; empty where there is none.
 std::string_view last_word(std::string_view& line) {
@@ -37,10 +38,7 @@ std::string_view last_word(std::string_view& line) {
 fs::path image_in(const fs::path& folder, const std::string& name) {
   std::error_code none;
   const fs::path as_named = folder / name;
-  constexpr std::array endings{".exr", ".npy", ".png", ".tif", ".tiff"};
-  if (std::ranges::find(endings, as_named.extension()) != endings.end() &&
-      fs::exists(as_named, none))
-    return as_named;
+  if (is_image_name(name) && fs::exists(as_named, none)) return as_named;
   for (const char* ending : endings)
     if (const fs::path other = fs::path(as_named).replace_extension(ending);
         fs::exists(other, none))
@@ -50,10 +48,25 @@ fs::path image_in(const fs::path& folder, const std::string& name) {
 
 }  // namespace
 
+bool is_image_name(const std::string& name) {
+  return std::ranges::find(endings, fs::path(name).extension()) != endings.end();
+}
+
+std::string name_in_stack(const std::string& file,
+                          const std::string& stack,
+                          const std::string& list,
+                          const std::string& place) {
+  const fs::path beside = fs::path(stack).parent_path();
+  const fs::path relative = fs::proximate(file, beside.empty() ? fs::path(".") : beside);
+  if (relative.is_absolute() || *relative.begin() == "..")
+    throw bad_input(list, place, printable(file, 100),
+                    "an image below the folder of the stack: write that beside the images");
+  return relative.generic_string();
+}
+
 Stack stack_of_lamps(const std::string& list, const std::string& images, const std::string& path) {
   const std::string text = InputFile(list).read_rest(most_list_bytes);
-  const fs::path folder = images.empty() ? fs::path(list).parent_path() : fs::path(images),
-                 beside = fs::path(path).parent_path();
+  const fs::path folder = images.empty() ? fs::path(list).parent_path() : fs::path(images);
   Stack s;
   s.path = path;
   s.values = StackValues::f_r_cosine;
@@ -89,14 +102,11 @@ Stack stack_of_lamps(const std::string& list, const std::string& images, const s
       throw bad_input(list, place,
                       fmt::format("{}, which is not there", printable(file.string(), 100)),
                       "an image of that name that ends in .exr, .npy, .png or .tif");
-    const fs::path relative = fs::proximate(file, beside.empty() ? fs::path(".") : beside);
-    if (relative.is_absolute() || *relative.begin() == "..")
-      throw bad_input(list, place, printable(file.string(), 100),
-                      "an image below the folder of the stack: write that beside the images");
-    if (!files.insert(relative.generic_string()).second)
-      throw bad_input(list, place, printable(relative.generic_string(), 60), "each image once");
+    const std::string in_stack = name_in_stack(file.string(), path, list, place);
+    if (!files.insert(in_stack).second)
+      throw bad_input(list, place, printable(in_stack, 60), "each image once");
     StackImage& image = s.images.emplace_back();
-    image.path = relative.generic_string();
+    image.path = in_stack;
     image.light = SideVector<Side::light>{{towards[0], towards[1], towards[2]}};
     image.view = SideVector<Side::view>{{0, 0, 1}};
   }

@@ -20,4 +20,13 @@ namespace gonio {
 /// \throws Error  bad_input of a line, by its number; of an image that is not there, or not below the folder of the stack
 Stack stack_of_lamps(const std::string& list, const std::string& images, const std::string& stack);
 
+/// Whether a name ends as those of images do.
+bool is_image_name(const std::string& name);
+/// Path of a file relative to the folder of a stack, where documents name it; one that lies elsewhere is refused.
+/// \param list, place  who names it
+std::string name_in_stack(const std::string& file,
+                          const std::string& stack,
+                          const std::string& list,
+                          const std::string& place);
+
 }  // namespace gonio

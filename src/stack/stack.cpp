@@ -1,5 +1,7 @@
 #include "stack/stack.h"
 
+#include <algorithm>
+
 #include "base/file.h"
 #include "base/json/describe.h"
 
@@ -12,7 +14,8 @@ struct SideKeys {
   static constexpr std::string_view theta = light ? "theta_i" : "theta_o",
                                     phi = light ? "phi_i" : "phi_o",
                                     vector = light ? "light" : "view",
-                                    map = light ? "light_map" : "view_map";
+                                    map = light ? "light_map" : "view_map",
+                                    position = light ? "light_position" : "view_position";
 };
 
 template <Side side>
@@ -43,6 +46,19 @@ struct Description<SideMap<side>> {
                            "path of an image with a vector for each texel", not_empty)};
   }
 };
+template <Side side>
+struct Description<SidePosition<side>> {
+  static constexpr auto fields() {
+    constexpr double far = 1e9;
+    return FieldList{field(SideKeys<side>::position, &SidePosition<side>::at,
+                           "place from the middle of the image, z above the surface, in the unit "
+                           "of \"width\"",
+                           Numbers{-far, far})};
+  }
+  static void check(SidePosition<side>& p, Demand expect) {
+    expect(p.at.z > 0, SideKeys<side>::position, "a place above the surface: z above 0");
+  }
+};
 template <>
 inline constexpr auto description<StackImage> = FieldList{
     Field{"path", &StackImage::path,
@@ -69,12 +85,27 @@ struct Description<Stack> {
               not_empty),
         field("normals", if_there(&Stack::normals),
               "path of an image with the normal of each texel, linear in [-1, 1]", not_empty),
+        field("width", if_there(&Stack::width),
+              "of the surface that the images show, in the unit of positions", Numbers{1e-9, 1e9}),
+        field(
+            "heights", if_there(&Stack::heights),
+            "path of an image of one channel, the surface's heights in that unit; else it is flat",
+            not_empty),
         field("saturation", if_there(&Stack::saturation),
               "number of the images from which on light is clipped, and left out",
               Numbers{0, 1e30, true}),
         field("floor", if_there(&Stack::floor),
               "number of the images up to which there is shadow or noise, left out",
               Numbers{0, 1e30}),
+        field(
+            "dark", if_there(&Stack::dark),
+            "path of a photograph without light, whose numbers are taken from those of all others",
+            not_empty),
+        field(
+            "flat", if_there(&Stack::flat),
+            "path of a photograph of a white sheet under even light: all others are divided by it "
+            "over its middle",
+            not_empty),
         field("linear", &Stack::linear,
               "images in PNG and TIFF are light, though they do not say so (gAMA 1, "
               "TransferFunction)",
@@ -84,6 +115,10 @@ struct Description<Stack> {
   }
   static void check(Stack& s, Demand expect) {
     expect(!s.channels || s.channels->size() != 2, "channels", "an array of 1 or 3");
+    const bool is_near = std::ranges::any_of(
+        s.images, [](const StackImage& i) { return i.light.index() == 3 || i.view.index() == 3; });
+    expect(s.width || !is_near, "images",
+           "\"width\" beside it, in whose unit lights or views have positions");
   }
 };
 

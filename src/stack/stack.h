@@ -39,8 +39,14 @@ template <Side>
 struct SideMap {
   std::string path;
 };
+/// Place of a lamp, or a camera, that is so near that its direction is another one at each texel: from the middle of the image, x to the right, y upwards
+/// in it, z above the flat surface, in the unit of Stack::width.
+template <Side>
+struct SidePosition {
+  Vector at{0, 0, 1};
+};
 template <Side side>
-using Towards = std::variant<SideAngles<side>, SideVector<side>, SideMap<side>>;
+using Towards = std::variant<SideAngles<side>, SideVector<side>, SideMap<side>, SidePosition<side>>;
 
 /// Direction of all texels; no value where each has its own.
 template <Side side>
@@ -56,13 +62,15 @@ struct StackImage {
   std::string path;
   Towards<Side::light> light;
   Towards<Side::view> view;
-  double scale = 1;  ///< what its numbers are multiplied with
+  double scale =
+      1;  ///< what its numbers are multiplied with: of a lamp with a position those in the middle
 };
 
 /// Quantity that the images hold, linear [1/sr].
 enum class StackValues {
   f_r,        ///< the reflectance, as everywhere in gonio
-  f_r_cosine  ///< times n·l: what a camera sees of a surface under a light of irradiance 1
+  f_r_cosine  ///< times n·l: what a camera sees of a surface under a light of irradiance 1; of a
+              ///< near lamp that is so in the middle
 };
 template <>
 inline constexpr std::array<std::string_view, 2> names_of<StackValues>{"f_r", "f_r_cosine"};
@@ -81,9 +89,14 @@ struct Stack {
   std::optional<std::vector<std::string>>
       channels;  ///< of each image, one or three; none: R, G, B, or the only one
   std::optional<std::string> normals;  ///< path of an image as that of SideMap; none: all are z
+  std::optional<double> width;         ///< of the surface in the images, in the unit of positions
+  std::optional<std::string>
+      heights;  ///< path of an image of the surface's heights, in that unit; none: it is flat
   /// Numbers of the images, before they are scaled: from the one on a value is clipped light, up to the other it is a shadow or the camera's noise.
   /// Both are left out; none: none is.
   std::optional<double> saturation, floor;
+  /// Paths of two photographs by the same camera: one without light, whose numbers are in all others, and one of a white sheet under even light.
+  std::optional<std::string> dark, flat;
   bool linear = false;  ///< images in PNG and TIFF are light, whatever they say of themselves
   std::vector<StackImage> images;
   std::optional<StackTruth> truth;

@@ -7,6 +7,7 @@
 
 #include "base/error.h"
 #include "base/file.h"
+#include "base/quantile.h"
 #include "base/sha256.h"
 #include "base/whole_loop.h"
 #include "table/table.h"
@@ -73,7 +74,7 @@ std::unique_ptr<ImageFile> StackReader::open(const std::string& path) {
     width_ = file->width();
     height_ = file->height();
   }
-  expect_size_of(images_[0].path, width_, height_, *file);
+  expect_size_of(first_, width_, height_, *file);
   // Of files in scan lines a part costs all columns.
   block_width_ = std::max(block_width_, file->block_width());
   block_height_ = std::max(block_height_, file->block_height());
@@ -114,33 +115,69 @@ void StackReader::keep(Source& source, std::unique_ptr<ImageFile> file) {
   source.file = std::move(file);
 }
 
+StackReader::Source StackReader::source_of(const std::string& name) {
+  const std::string path = stack_.path_of(name);
+  Source source{path, {}, nullptr, InputFile(path).stamp()};
+  auto file = open(path);
+  source.numbers = file->channels().size();
+  const bool first = channels_.empty();
+  if (first)
+    channels_ = stack_.channels.value_or(file->channels().size() == 1 ? file->channels() : rgb);
+  const bool only = channels_.size() == 1 && file->channels().size() == 1 && !stack_.channels;
+  source.channels = only ? std::vector<std::size_t>{0} : channels_among(*file, channels_);
+  if (source.channels.empty())
+    refuse_channels(*file, stack_.channels || !first
+                               ? fmt::format("{} among them", fmt::join(channels_, ", "))
+                               : "one, or R, G and B; or \"channels\" in the stack");
+  keep(source, std::move(file));
+  return source;
+}
+
 StackReader::StackReader(Stack stack)
     : stack_(std::move(stack)), opening_(std::make_unique<MemoryBudget>(most_held)) {
+  first_ = stack_.path_of(stack_.images[0].path);
   for (const StackImage& image : stack_.images) {
-    const std::string path = stack_.path_of(image.path);
-    images_.push_back({path, {}, nullptr, InputFile(path).stamp()});
-    auto file = open(path);
-    Source& source = images_.back();
-    source.numbers = file->channels().size();
-    if (images_.size() == 1) {
-      channels_ = stack_.channels.value_or(file->channels().size() == 1 ? file->channels() : rgb);
-    }
-    const bool only = channels_.size() == 1 && file->channels().size() == 1 && !stack_.channels;
-    source.channels = only ? std::vector<std::size_t>{0} : channels_among(*file, channels_);
-    if (source.channels.empty())
-      refuse_channels(*file, stack_.channels || images_.size() > 1
-                                 ? fmt::format("{} among them", fmt::join(channels_, ", "))
-                                 : "one, or R, G and B; or \"channels\" in the stack");
-    keep(source, std::move(file));
+    images_.push_back(source_of(image.path));
     const auto map_of = [&](const auto& towards) {
-      const auto* map = std::get_if<2>(&towards);
-      return map ? vectors(map->path) : none;
+      if (const auto* map = std::get_if<2>(&towards)) return vectors(map->path);
+      const auto* near = std::get_if<3>(&towards);
+      if (!near) return none;
+      is_near_ = true;
+      maps_.push_back({stack_.path, {}, nullptr, {}, 0, 0, near->at});
+      return maps_.size() - 1;
     };
     light_maps_.push_back(map_of(image.light));
     view_maps_.push_back(map_of(image.view));
     shared_ = shared_ && light_maps_.back() == none && view_maps_.back() == none;
   }
+  if (stack_.dark) dark_ = source_of(*stack_.dark);
+  if (stack_.flat) {
+    flat_ = source_of(*stack_.flat);
+    const auto tenth = [](std::size_t n) { return std::max<std::size_t>(1, n / 10); };
+    const Rectangle part{(width_ - tenth(width_)) / 2, (height_ - tenth(height_)) / 2,
+                         tenth(width_), tenth(height_)};
+    std::vector<float> dark, light, middle;
+    read_frames(part, dark, light);
+    for (std::size_t c = 0; c < channels_.size(); ++c) {
+      std::vector<double> seen;
+      for (std::size_t t = 0; t < part.size(); ++t)
+        if (const float per = light[c * part.size() + t]; per > 0) seen.push_back(1 / double{per});
+      if (seen.empty())
+        throw bad_input(flat_->path, "its middle", "none above the dark frame",
+                        "numbers of a white sheet under light");
+      middle.push_back(static_cast<float>(median(seen)));
+    }
+    middle_ = middle;
+  }
   if (channels_.size() == 1) channels_ = {""};
+  if (stack_.heights) {
+    heights_ = Source{stack_.path_of(*stack_.heights), {0}, nullptr, {}};
+    heights_->opened = InputFile(heights_->path).stamp();
+    auto file = open(heights_->path);
+    heights_->numbers = file->channels().size();
+    if (heights_->numbers != 1) refuse_channels(*file, "one");
+    keep(*heights_, std::move(file));
+  }
   if (stack_.normals) normals_ = vectors(*stack_.normals);
   if (stack_.truth) will_read(stack_.path_of(stack_.truth->parameters));  // it is no output either
   make_digest();
@@ -149,7 +186,10 @@ StackReader::StackReader(Stack stack)
 void StackReader::make_digest() {
   std::vector<const Source*> all;
   for (const auto* sources : {&images_, &maps_})
-    for (const Source& s : *sources) all.push_back(&s);
+    for (const Source& s : *sources)
+      if (!s.position) all.push_back(&s);
+  for (const auto* frame : {&dark_, &flat_, &heights_})
+    if (*frame) all.push_back(&**frame);
   std::vector<std::string> digests(all.size());
   for_each_whole(all.size(), [&](std::size_t k) {
     const InputFile in(all[k]->path);
@@ -170,9 +210,26 @@ void StackReader::expect_unchanged(const Source& source, const InputFile& now) {
 }
 
 std::size_t StackReader::bytes_of_texel() const {
-  const std::size_t vectors =
-      (shared_ ? 0 : 6 * images_.size()) + (has_normals() ? 3 : 0) + 3 * maps_.size();
-  return sizeof(float) * (images_.size() * channels_.size() + vectors);
+  const std::size_t vectors = (shared_ ? 0 : 6 * images_.size()) + (has_normals() ? 3 : 0) +
+                              3 * maps_.size() + (is_near_ ? 4 : 0);
+  const std::size_t frames = dark_ || flat_ ? 2 : 0;
+  return sizeof(float) * ((images_.size() + frames) * channels_.size() + vectors);
+}
+
+void StackReader::read_frames(const Rectangle& part,
+                              std::vector<float>& dark,
+                              std::vector<float>& gain) const {
+  const std::size_t n = channels_.size() * part.size();
+  if (dark_)
+    read(*dark_, part, dark);
+  else
+    dark.assign(n, 0);
+  if (!flat_) return gain.assign(n, 1);
+  read(*flat_, part, gain);
+  for (std::size_t k = 0; k < n; ++k) {
+    const float light = gain[k] - dark[k];
+    gain[k] = light > 0 ? (middle_.empty() ? 1 : middle_[k / part.size()]) / light : nan;
+  }
 }
 
 void StackReader::read(const Source& source, const Rectangle& part, std::vector<float>& to) const {
@@ -192,11 +249,36 @@ void StackReader::read(const Source& source, const Rectangle& part, std::vector<
                    [&] { read_from(*open_image(source.path, stack_.linear)); });
 }
 
+std::vector<float> StackReader::places_of(const Rectangle& part) const {
+  const std::size_t n = part.size();
+  std::vector<float> places(3 * n), heights(n, 0);
+  if (heights_) read(*heights_, part, heights);
+  const double step = *stack_.width / static_cast<double>(width_);
+  const auto from_middle = [&](std::size_t at, std::size_t all) {
+    return static_cast<float>((static_cast<double>(2 * at + 1) - static_cast<double>(all)) / 2 *
+                              step);
+  };
+  for (std::size_t t = 0; t < n; ++t) {
+    places[t] = from_middle(part.x + t % part.width, width_);
+    places[n + t] = -from_middle(part.y + t / part.width, height_);
+    places[2 * n + t] = heights[t];
+  }
+  return places;
+}
+
 void StackReader::read_vectors(std::size_t map,
                                const Rectangle& part,
+                               const std::vector<float>& places,
                                std::vector<float>& to) const {
-  read(maps_[map], part, to);
   const std::size_t n = part.size();
+  if (const auto& from = maps_[map].position) {
+    const std::array<double, 3> at{from->x, from->y, from->z};
+    to.resize(3 * n);
+    for (std::size_t k = 0; k < to.size(); ++k)
+      to[k] = static_cast<float>(at[k / n] - double{places[k]});
+  } else {
+    read(maps_[map], part, to);
+  }
   for (std::size_t t = 0; t < n; ++t) {
     const double x = to[t], y = to[n + t], z = to[2 * n + t];
     const double length = std::hypot(x, y, z);
@@ -221,6 +303,7 @@ void StackReader::refuse(const Source& source,
 void StackReader::make_reflectance(const Rectangle& part,
                                    std::size_t i,
                                    const std::vector<std::vector<float>>& maps,
+                                   const std::vector<float>& places,
                                    std::vector<float>& values) const {
   const std::size_t n = part.size();
   const StackImage& image = stack_.images[i];
@@ -236,6 +319,11 @@ void StackReader::make_reflectance(const Rectangle& part,
     if (stack_.values == StackValues::f_r_cosine) {
       const double cosine = dot(normal, light ? *light : vector_of(light_maps_[i], t));
       factor = cosine >= least_cosine ? factor / cosine : double{nan};
+      if (const auto* near = std::get_if<SidePosition<Side::light>>(&image.light)) {
+        const Vector to_lamp =
+            near->at - Vector{double{places[t]}, double{places[n + t]}, double{places[2 * n + t]}};
+        factor *= dot(to_lamp, to_lamp) / dot(near->at, near->at);
+      }
     }
     bool has_value = false;
     for (std::size_t k = t; k < values.size(); k += n) {
@@ -263,7 +351,8 @@ void StackReader::read(const Rectangle& part, StackPart& to) const {
   to.normal.resize(has_normals() ? 3 * n : 0);
 
   std::vector<std::vector<float>> maps(maps_.size());
-  for_each_whole(maps.size(), [&](std::size_t m) { read_vectors(m, part, maps[m]); });
+  const auto places = is_near_ ? places_of(part) : std::vector<float>();
+  for_each_whole(maps.size(), [&](std::size_t m) { read_vectors(m, part, places, maps[m]); });
   // do_piece(first texel, texels) of each piece
   const auto for_pieces = [&](const auto& do_piece) {
     for (std::size_t first = 0; first < n; first += StackPart::piece_texels)
@@ -282,15 +371,21 @@ void StackReader::read(const Rectangle& part, StackPart& to) const {
     });
   }
 
+  std::vector<float> dark, gain;
+  if (dark_ || flat_) read_frames(part, dark, gain);
   for_each_whole(images, [&](std::size_t i) {
     std::vector<float> read_values;
     read(images_[i], part, read_values);
-    if (stack_.saturation || stack_.floor) {
+    if (stack_.saturation || stack_.floor || !gain.empty()) {
       constexpr float far = std::numeric_limits<float>::infinity();
       const auto clipped = static_cast<float>(stack_.saturation.value_or(double{far})),
-                 dark = static_cast<float>(stack_.floor.value_or(-double{far}));
-      for (float& v : read_values)
-        if (v >= clipped || v <= dark) v = nan;
+                 floor = static_cast<float>(stack_.floor.value_or(-double{far}));
+      for (std::size_t k = 0; k < read_values.size(); ++k) {
+        float& v = read_values[k];
+        const bool is_clipped = v >= clipped;
+        if (!gain.empty()) v = (v - dark[k]) * gain[k];
+        if (is_clipped || v <= floor) v = nan;
+      }
     }
     const StackImage& image = stack_.images[i];
     const auto light = direction_of(image.light), view = direction_of(image.view);
@@ -304,7 +399,7 @@ void StackReader::read(const Rectangle& part, StackPart& to) const {
         v = is_number ? v * factor : nan;
       }
     } else {
-      make_reflectance(part, i, maps, read_values);
+      make_reflectance(part, i, maps, places, read_values);
     }
 
     for_pieces([&](std::size_t first, std::size_t count) {

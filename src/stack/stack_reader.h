@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <unordered_map>
@@ -78,9 +79,13 @@ class StackReader {
     mutable std::unique_ptr<ImageFile>
         file;  ///< kept open where there are few; used by one thread at a time
     InputFile::Stamp opened{};
-    std::size_t numbers = 0;  ///< of a texel, channels that are not read included
-    std::size_t held = 0;     ///< bytes, while it is open
+    std::size_t numbers = 0;           ///< of a texel, channels that are not read included
+    std::size_t held = 0;              ///< bytes, while it is open
+    std::optional<Vector> position{};  ///< vectors to it are computed, not read
   };
+  Source source_of(const std::string& name);
+  /// Numbers that a photograph is multiplied with after the dark frame is taken off, [channel][texel].
+  void read_frames(const Rectangle&, std::vector<float>& dark, std::vector<float>& gain) const;
   void make_digest();
   static void expect_unchanged(const Source&, const InputFile& now);
   std::unique_ptr<ImageFile> open(const std::string& path);
@@ -88,11 +93,18 @@ class StackReader {
   void keep(Source&, std::unique_ptr<ImageFile>);
   std::size_t vectors(const std::string& name);
   void read(const Source&, const Rectangle&, std::vector<float>& to) const;
-  void read_vectors(std::size_t map, const Rectangle&, std::vector<float>& to) const;
+  /// \param places  of the part's texels, where there are positions
+  void read_vectors(std::size_t map,
+                    const Rectangle&,
+                    const std::vector<float>& places,
+                    std::vector<float>& to) const;
+  /// Places of a part's texels in the unit of Stack::width, [3][texel].
+  std::vector<float> places_of(const Rectangle&) const;
   /// Values of an image as f_r.  \param values  of its channels, as read
   void make_reflectance(const Rectangle& part,
                         std::size_t image,
                         const std::vector<std::vector<float>>& maps,
+                        const std::vector<float>& places,
                         std::vector<float>& values) const;
   [[noreturn]] void refuse(const Source&,
                            const Rectangle&,
@@ -100,11 +112,14 @@ class StackReader {
                            const char* what) const;
 
   Stack stack_;
+  std::string first_;  ///< path of the first image, whose size all have
   std::string digest_;
   std::size_t width_ = 0, height_ = 0, block_width_ = 1, block_height_ = 1;
   std::vector<std::string> channels_;
-  bool shared_ = true;
-  std::vector<Source> images_, maps_;  ///< maps_: images of vectors, each once
+  bool shared_ = true, is_near_ = false;  ///< is_near_: there are positions
+  std::vector<Source> images_, maps_;     ///< maps_: images of vectors, each once
+  std::optional<Source> dark_, flat_, heights_;
+  std::vector<float> middle_;                                ///< of the flat frame, by channel
   std::unordered_map<std::string, std::size_t> map_number_;  ///< by path
   std::vector<std::size_t> light_maps_, view_maps_;  ///< of each image: index into maps_, or none
   std::size_t normals_ = none;

@@ -76,6 +76,57 @@ TEST(StackCommand, MakesAStackOfPhotographsAndTheListOfTheirLamps) {
   EXPECT_FALSE(fs::exists(f / "s/x.json"));
 }
 
+TEST(StackCommand, TakesVectorsAsPlacesOfLampsWhereTheyAreNear) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout map --size 4,3 --images 2 -o s").code, 0);
+  f.write("s/dome.lp", "2\nimage_000.exr 0 0 100\nimage_001.exr 0 120 160\n");
+  const auto j = gonio(f, "stack s/dome.lp --near 40 --white 0.5 -o s/mine.json --json").json();
+  EXPECT_EQ(j["width"], 40);
+  EXPECT_EQ(j["images"][1]["light_position"], nlohmann::json({0, 120, 160}));
+  const double first = j["images"][0]["scale"], second = j["images"][1]["scale"];
+  EXPECT_NEAR(first, 1 / (3.14159265 * 0.5), 1e-6);
+  EXPECT_NEAR(second, first * 4, 1e-6) << "twice as far, a quarter of the light";
+}
+
+TEST(StackCommand, FindsTheLampsInAMirrorBall) {
+  const Folder f;
+  fs::create_directories(f / "photos");
+  Image i{40, 40, {"Y"}, {std::vector<float>(1600, 0.1F)}, {}};
+  i.planes[0][20 * 40 + 28] = 5;  // 8.5 of 20 pixels to the right of the middle
+  write_exr(f / "photos/a.exr", i);
+  const auto o = gonio(f, "stack photos --ball 20,20.5,20 --linear -o photos/s.json --json");
+  ASSERT_EQ(o.code, 3) << o.out;
+  expect_one_line(o, 3, "a.exr: ball 20,20.5,20");  // beyond the lower edge
+  const auto j = gonio(f, "stack photos --ball 20,20.5,19 -o photos/s.json --json").json();
+  const double x = 8.5 / 19;
+  EXPECT_NEAR(j["images"][0]["light"][0], 2 * x * std::sqrt(1 - x * x), 1e-9);
+  EXPECT_NEAR(j["images"][0]["light"][1], 0, 1e-9);
+  expect_one_line(gonio(f, "stack photos --ball 20,20 -o photos/s.json"), 2, "X,Y,RADIUS");
+  expect_one_line(gonio(f, "stack photos --ball 20,20,9 --near 3 -o photos/s.json"), 2, "--near");
+}
+
+TEST(StackCommand, KeepsTheDarkFrameAndTheWhiteSheetByTheirPaths) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout map --size 4,3 --images 4 -o s").code, 0);
+  f.write("s/dome.lp", "2\nimage_000.exr 0 0 1\nimage_001.exr 0 1 1\n");
+  const std::string both = "stack s/dome.lp --dark s/image_002.exr --flat s/image_003.exr -o ";
+  const auto j = gonio(f, both + "s/mine.json --json").json();
+  EXPECT_EQ(j["dark"], "image_002.exr");
+  EXPECT_EQ(j["flat"], "image_003.exr");
+  const std::string flat = read_bytes(f / "s/image_003.exr");
+  expect_one_line(gonio(f, both + "s/image_003.exr"), 2, "image_003.exr");
+  EXPECT_EQ(read_bytes(f / "s/image_003.exr"), flat);
+  fs::create_directories(f / "t");
+  expect_one_line(gonio(f, "stack s/dome.lp --dark s/image_002.exr -o t/mine.json"), 3,
+                  "below the folder");
+  Image small{2, 2, {"R", "G", "B"}, {{1, 1, 1, 1}, {1, 1, 1, 1}, {1, 1, 1, 1}}, {}};
+  write_exr(f / "s/small.exr", small);
+  expect_one_line(gonio(f, "stack s/dome.lp --dark s/small.exr -o s/mine.json"), 3,
+                  "small.exr: size");
+}
+
 #ifdef GONIO_TIFF
 TEST(StackCommand, TakesPhotographsInTiffWithNumbersFromZeroToOne) {
   const Folder f;

@@ -134,6 +134,110 @@ TEST(StackReader, HasADirectionForEachTexelWhereAnImageHas) {
       }
 }
 
+TEST(StackReader, SeesANearLampFromEachTexelAndMoreOfItsLightWhereItIsNearer) {
+  const Folder f;
+  example_stack(f);
+  const std::string images =
+      R"([{"path": "0.exr", "light_position": [1, 2, 6], "view_position": [0, 0, 9], "scale": 2}])";
+  Image heights{stack_width, stack_height, {"Y"}, {std::vector<float>(20, 0.5F)}, {}};
+  write_exr(f / "h.exr", heights);
+  for (const double height : {0.0, 0.5}) {
+    const auto s = read(write_stack(f, images,
+                                    std::string(R"(, "values": "f_r_cosine", "width": 10)") +
+                                        (height > 0 ? R"(, "heights": "h.exr")" : "")),
+                        whole);
+    ASSERT_FALSE(s.shared);
+    for (std::size_t t = 0; t < 20; ++t) {
+      // Texels are 2 wide, and the middle is that of column 2, between the rows 1 and 2.
+      const double x = 2 * (static_cast<double>(t % 5) - 2),
+                   y = 2 * (1.5 - static_cast<double>(t / 5));
+      const double lx = 1 - x, ly = 2 - y, lz = 6 - height, far = std::hypot(lx, ly, lz);
+      EXPECT_NEAR(s.light[t], lx / far, 1e-6);
+      EXPECT_NEAR(s.light[20 + t], ly / far, 1e-6);
+      EXPECT_NEAR(s.light[40 + t], lz / far, 1e-6);
+      EXPECT_NEAR(s.view[t], -x / std::hypot(x, y, 9 - height), 1e-6);
+      const double of_middle = 1 + 4 + 36;
+      const double expected = stack_value(0, 0, t) * 2 * (far * far / of_middle) / (lz / far);
+      EXPECT_NEAR(s.values[t], expected, 1e-5 * expected);
+    }
+  }
+}
+
+TEST(StackReader, NeedsTheWidthInWhichLampsHavePositions) {
+  const Folder f;
+  const auto line = [&](const char* image, const char* more) {
+    return refusal([&] { read(write_stack(f, image, more), whole); });
+  };
+  example_stack(f);
+  const char* near = R"([{"path": "0.exr", "light_position": [1, 2, 6], "theta_o": 0}])";
+  EXPECT_HAS(line(near, ""), "/images: found an array, expected \"width\" beside it");
+  EXPECT_EQ(line(near, R"(, "width": 10)"), "");
+  EXPECT_HAS(
+      line(R"([{"path": "0.exr", "light_position": [1, 2, 0], "theta_o": 0}])", R"(, "width": 10)"),
+      "light_position: ");
+  write_exr(f / "h.exr", Image{5, 4, {"Y"}, {std::vector<float>(20, 7)}, {}});
+  EXPECT_HAS(line(near, R"(, "width": 10, "heights": "h.exr")"),
+             "column 0, row 0: found one below");
+  write_exr(f / "h.exr", vector_image(0, 0, 1));
+  EXPECT_HAS(line(near, R"(, "width": 10, "heights": "h.exr")"), "h.exr: channels");
+}
+
+/// Image whose channel c has begin + c + step · texel.
+Image ramp(float begin, float step) {
+  Image i = stack_image(0);
+  for (std::size_t c = 0; c < 3; ++c)
+    for (std::size_t t = 0; t < whole.size(); ++t)
+      i.planes[2 - c][t] = begin + static_cast<float>(c) + step * static_cast<float>(t);
+  return i;
+}
+
+TEST(StackReader, TakesTheDarkFrameOffAndDividesByTheWhiteSheetOverItsMiddle) {
+  const Folder f;
+  write_exr(f / "dark.exr", ramp(0.125F, 0));
+  write_exr(f / "white.exr", ramp(2, 0.25F));
+  const auto plain = read(example_stack(f), whole);
+  const auto both = read(example_stack(f, R"(, "dark": "dark.exr", "flat": "white.exr")"), whole);
+  const auto dark = read(example_stack(f, R"(, "dark": "dark.exr")"), whole);
+  for (std::size_t k = 0; k < plain.values.size(); ++k) {
+    const auto c = static_cast<float>(k / 20 % 3), t = static_cast<float>(k % 20);
+    const float less = plain.values[k] - (0.125F + c);
+    EXPECT_FLOAT_EQ(dark.values[k], less) << "below 0, too";
+    EXPECT_FLOAT_EQ(both.values[k], less * (1.875F + 0.25F * 7) / (1.875F + 0.25F * t)) << k;
+  }
+}
+
+TEST(StackReader, KnowsClippedLightByTheFilesOwnNumbersAndShadowsWithoutTheDarkFrame) {
+  const Folder f;
+  write_exr(f / "dark.exr", ramp(0.25F, 0));
+  const auto s =
+      read(example_stack(f, R"(, "dark": "dark.exr", "saturation": 4.25, "floor": 0.5)"), whole);
+  for (std::size_t t = 0; t < 20; ++t) {
+    const float own = stack_value(0, 0, t);
+    EXPECT_EQ(std::isnan(s.values[t]), own >= 4.25F || own - 0.25F <= 0.5F) << own;
+  }
+}
+
+TEST(StackReader, LooksAtItsFramesAsAtItsImages) {
+  const Folder f;
+  write_exr(f / "white.exr", ramp(2, 0.25F));
+  const std::string path = example_stack(f, R"(, "flat": "white.exr")");
+  const auto line = [&] { return refusal([&] { StackReader reader(read_stack(path)); }); };
+  const auto name = StackReader(read_stack(path)).digest();
+  write_exr(f / "white.exr", ramp(2.5F, 0.25F));
+  EXPECT_NE(StackReader(read_stack(path)).digest(), name);
+  {
+    const FileGuard guard;
+    const StackReader reader(read_stack(path));
+    EXPECT_THROW(OutputFile(f / "white.exr"), Error) << "an input";
+  }
+  write_exr(f / "white.exr", stack_image(0, 6));
+  EXPECT_HAS(line(), "white.exr: size: found 6 × 4");
+  write_exr(f / "white.exr", ramp(-9, 0.25F));
+  EXPECT_HAS(line(), "white.exr: its middle: found none above the dark frame");
+  std::filesystem::remove(f / "white.exr");
+  EXPECT_HAS(line(), "white.exr: opening");
+}
+
 TEST(StackReader, RefusesADirectionBelowTheSurfaceByItsTexel) {
   const Folder f;
   example_stack(f);

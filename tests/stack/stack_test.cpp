@@ -52,8 +52,10 @@ TEST(Stack, RefusesDirectionsThatAreMissingDoubleOrBelowTheSurface) {
   };
   EXPECT_EQ(line(R"({"path": "a", "theta_i": 0, "theta_o": 0})"), "") << "the ruler";
   EXPECT_HAS(line(R"({"path": "a", "theta_o": 0})"),
-             "/images/0: found none of its keys, expected one of theta_i, light or light_map");
-  EXPECT_HAS(line(R"({"path": "a", "theta_i": 0})"), "one of theta_o, view or view_map");
+             "/images/0: found none of its keys, expected one of theta_i, light, light_map or "
+             "light_position");
+  EXPECT_HAS(line(R"({"path": "a", "theta_i": 0})"),
+             "one of theta_o, view, view_map or view_position");
   EXPECT_HAS(line(R"({"path": "a", "theta_i": 0, "light": [0, 0, 1], "theta_o": 0})"),
              "found theta_i and light");
   EXPECT_HAS(line(R"({"path": "a", "theta_i": 90, "theta_o": 0})"), "/images/0/theta_i: found 90");
