@@ -13,6 +13,7 @@
 #include "cli/fit/map_result.h"
 #include "cli/line/command.h"
 #include "cli/line/terminal.h"
+#include "fitting/map/choose.h"
 #include "fitting/map/gather.h"
 #include "fitting/map/survey.h"
 #include "reports/pages/map_page.h"
@@ -26,7 +27,7 @@ namespace fs = std::filesystem;
 
 struct FitMapCall : Common {
   std::string stack, output, html, tile_size = "256";
-  std::vector<std::string> tiles;
+  std::vector<std::string> tiles, models;
   TexelOptions texels;
   bool as_given = false;
 };
@@ -110,9 +111,20 @@ Exit run_tiles(const FitMapCall& o,
   return Exit::done;
 }
 
-Exit run(const FitMapCall& o) {
+/// The options with the model that was chosen, and those that it was chosen from.
+std::optional<std::vector<TriedModel>> choose(const StackReader& stack, FitMapCall& o) {
+  if (o.models.empty()) return std::nullopt;
+  Progress progress(o.quiet);
+  progress("comparing models");
+  auto tried = try_models(stack, o.texels, o.models);
+  o.texels.model = tried.front().model;
+  return tried;
+}
+
+Exit run(const FitMapCall& call) {
+  FitMapCall o = call;
   use(o);
-  const TexelOptions& t = o.texels;
+  TexelOptions& t = o.texels;
   const auto tile_size = two_numbers(o.tile_size, "--tile-size", 1, longest_side, true);
   check_outputs({o.stack}, o.html.empty() ? std::vector{o.output} : std::vector{o.output, o.html});
   if (!o.html.empty() && !o.tiles.empty())
@@ -122,6 +134,7 @@ Exit run(const FitMapCall& o) {
   progress("opening the stack");
   const StackReader stack(read_stack(o.stack));
   expect_no_input(o.output);
+  const auto tried = choose(stack, o);
   check(t, stack.channels().size());
   progress.clear();
   const TileGrid grid{stack.width(), stack.height(), tile_size[0], tile_size[1]};
@@ -145,6 +158,7 @@ Exit run(const FitMapCall& o) {
   const MapCount n = fit_tiles(stack, t, grid, tiles, folder, std::ref(line), found.noise);
   line.line()("writing " + o.output);
   MapDocument d = gather_tiles(folder, out, threads_in_use());
+  d.models = tried;
   d.left_out = found.left_out;
   d.azimuth = found.arrangement.azimuth;
   d.warnings = warnings_of(found, stack.stack(), t.model);
@@ -169,6 +183,11 @@ void add_fit_map(CommandLine& line) {
       run);
   c.option("STACK", o->stack, "Images and their directions: a document gonio.stack/1").required();
   c.options(o->texels);
+  c.option(
+       "--models", o->models,
+       "Models to choose from, in place of --model: the one that predicts images best which its "
+       "fits have not seen, at a sample of the texels")
+      .delimiter(',');
   c.option("--tile", o->tiles,
            "COLUMN,ROW of the only tile to fit, into the folder of -o, from 0,0 on top left; "
            "several times for several. gonio gather joins them")

@@ -18,6 +18,11 @@ namespace {
 void print(const MapDocument& d, const std::string& beside) {
   const std::uint64_t texels = d.width * d.height;
   say("model   {}\n", d.model);
+  if (d.models && d.models->size() > 1)
+    say_below("chosen  ",
+              fmt::format("{} leaves {:.3g} times as much in images that fits have not seen",
+                          d.models->at(1).model,
+                          d.models->at(1).unseen_rms / d.models->at(0).unseen_rms));
   std::string ended =
       fmt::format("{} × {}, {} converged", d.width, d.height, percent(d.converged, texels));
   if (d.not_converged) ended += fmt::format(", {} did not", percent(d.not_converged, texels));

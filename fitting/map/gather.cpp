@@ -30,6 +30,11 @@ inline constexpr auto description<MapParameter> = FieldList{
     Field{"mean", &MapParameter::mean, "of the texels that have a value"},
     Field{"mean_std_error", &MapParameter::mean_std_error, "of the texels that have one"}};
 template <>
+inline constexpr auto description<TriedModel> =
+    FieldList{Field{"model", &TriedModel::model, ""},
+              Field{"unseen_rms", &TriedModel::unseen_rms,
+                    "median over a sample's texels, in the metric's unit"}};
+template <>
 inline constexpr auto description<MapDocument> = FieldList{
     constant_text("schema", "gonio.map/1"),
     Field{"path", &MapDocument::path, "of the map"},
@@ -53,6 +58,8 @@ inline constexpr auto description<MapDocument> = FieldList{
           "whether the azimuths of the lights were checked, by a sample of the texels"},
     Field{"warnings", &MapDocument::warnings,
           "what a sample of the texels says of the stack and the model"},
+    Field{"models", if_there(&MapDocument::models),
+          "that this one was chosen from, by images that their fits have not seen; the best first"},
     Field{"parameters", &MapDocument::parameters, "by their names"},
     Field{own_files_key, if_there([](const MapDocument& d) { return own_files({d.model}); }),
           own_files_meaning}};

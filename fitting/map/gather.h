@@ -13,6 +13,7 @@
 #include "base/describe.h"
 #include "base/file.h"
 #include "fitting/map/arrangement.h"
+#include "fitting/map/choose.h"
 #include "fitting/map/tiles.h"
 
 namespace gonio {
@@ -34,6 +35,7 @@ struct MapDocument {
   double rms = 0;                       ///< of the metric's residuals, on average; NaN of none
   std::optional<AzimuthCheck> azimuth;  ///< of a survey; of tiles that were joined unknown
   std::vector<std::string> warnings;    ///< of a survey; of tiles that were joined none
+  std::optional<std::vector<TriedModel>> models;  ///< that this one was chosen from, the best first
   std::vector<MapParameter> parameters;
 };
 /// Whether more of the judged texels are off than chance makes.
