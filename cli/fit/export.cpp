@@ -3,10 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <list>
 #include <optional>
+#include <vector>
 
 #include "base/file.h"
 #include "base/json/reader.h"
+#include "base/text.h"
 #include "brdf/model/fit_misfit.h"
 #include "brdf/model/fitted_model.h"
 #include "cli/line/command.h"
@@ -18,6 +22,8 @@
 
 namespace gonio::cli {
 namespace {
+
+namespace fs = std::filesystem;
 
 struct ExportCall : Common {
   std::string fit, output;
@@ -55,15 +61,29 @@ void print(const Export& e) {
 
 /// A map's textures.
 Exit run_map(const ExportCall& o) {
-  if (o.target != ExportTarget::gltf)
-    throw wrong_usage(fmt::format("--to {}: a map is written for gltf", name_of(o.target)));
+  if (!takes_maps(o.target))
+    throw wrong_usage(fmt::format("--to {}: a map is written for gltf, open_pbr and usd_preview",
+                                  name_of(o.target)));
+  const fs::path output(o.output);
+  if (o.target != ExportTarget::gltf &&
+      output.stem().string().find_first_of("\"<>&'@{}") != std::string::npos)
+    throw wrong_usage(
+        fmt::format("-o {}: textures are named after it; expected a name without "
+                    "quotes, brackets, & and @",
+                    printable(o.output, 100)));
   OutputFile out(o.output);
   Progress progress(o.quiet);
   progress("exporting");
-  std::string file;
-  const MapExport e = export_map(o.fit, file);
-  out.write(file);
-  out.commit();
+  std::vector<std::string> files;
+  const MapExport e = export_map(o.fit, o.target, o.output, files);
+  out.write(files[0]);
+  std::list<OutputFile> textures;
+  std::vector<OutputFile*> all{&out};
+  for (std::size_t k = 0; k < e.textures.size(); ++k) {
+    textures.emplace_back((output.parent_path() / e.textures[k]).string()).write(files[k + 1]);
+    all.push_back(&textures.back());
+  }
+  commit_all(all);
   progress.clear();
   if (o.json) {
     fmt::print("{}", to_json(e));
@@ -83,6 +103,7 @@ Exit run_map(const ExportCall& o) {
       "%\n",
       100 * e.median_residual, 100 * e.high_residual);
   for (const auto& l : e.lost) say_below("lost      ", l);
+  if (!e.textures.empty()) say_below("files     ", fmt::format("{}", fmt::join(e.textures, ", ")));
   return Exit::done;
 }
 
@@ -122,7 +143,9 @@ void add_export(CommandLine& line) {
                                "Writes a fit as another program's material, says how far that is "
                                "from the fit, and keeps the fit in the file",
                                "gonio export fit.json --to gltf -o paint.gltf", run);
-  c.option("FIT", o->fit, "Document of a fit, or the map of gonio fit_map (gltf)").required();
+  c.option("FIT", o->fit,
+           "Document of a fit, or the map of gonio fit_map (gltf, open_pbr, usd_preview)")
+      .required();
   c.option("--to", o->target, "Format of the file").required();
   c.option("--tolerance", o->tolerance,
            "Distance (RMS, relative) above which parameters are fitted again in the target's model")

@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 #include <atomic>
-#include <bit>
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <utility>
 
-#include "base/base64.h"
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json/describe.h"
@@ -18,6 +17,7 @@
 #include "brdf/model/evaluate.h"
 #include "brdf/model/own_files.h"
 #include "brdf/term/map.h"
+#include "fitting/export/map_files.h"
 #include "fitting/export/placement.h"
 #include "fitting/export/target.h"
 #include "geometry/half_difference.h"
@@ -27,7 +27,6 @@
 #include "stack/parameter_image.h"
 
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 #include <tbb/parallel_for.h>
 
 namespace gonio {
@@ -44,6 +43,8 @@ static_assert(describes_every_member<FilledParameter>());
 template <>
 inline constexpr auto description<MapExport> = FieldList{
     constant_text("schema", "gonio.map_export/1"),
+    Field{"target", &MapExport::target, ""},
+    Field{"textures", &MapExport::textures, "files beside the first; glTF holds its own"},
     Field{"map", &MapExport::map, "path of the map"},
     Field{"model", &MapExport::model, "spec of the map's fits"},
     Field{"width", "texels", &MapExport::width, ""},
@@ -72,7 +73,7 @@ constexpr std::size_t rows_at_once = 16, judged = 32;
 constexpr std::size_t most_texels = std::size_t{1} << 24;
 constexpr double largest_ior = 10;
 
-/// A texel's material by glTF's parameters.
+/// A texel's material.
 struct Texel {
   std::array<double, 3> base{}, f0{};
   double roughness = 1;
@@ -117,27 +118,35 @@ double f0_of(double ior) {
 struct TexelBytes {
   std::array<unsigned char, 3> base{}, rough{}, tint{};
 };
-TexelBytes bytes_of(const Texel& t, double strongest) {
+TexelBytes bytes_of(const Texel& t, double strongest, ExportTarget target) {
   TexelBytes b;
   b.rough = {0, byte_of(t.roughness), static_cast<unsigned char>(t.metal ? 255 : 0)};
-  for (std::size_t c = 0; c < 3; ++c) {
-    b.base[c] = srgb_byte(t.base[c]);
-    b.tint[c] = srgb_byte(t.metal || strongest <= 0 ? 1 : t.f0[c] / strongest);
-  }
+  for (std::size_t c = 0; c < 3; ++c)
+    if (target == ExportTarget::usd_preview) {
+      b.base[c] = srgb_byte(t.metal ? 0 : t.base[c]);
+      b.tint[c] = srgb_byte(t.f0[c]);
+    } else {
+      b.base[c] = srgb_byte(t.base[c]);
+      b.tint[c] = srgb_byte(t.metal || strongest <= 0 ? 1 : t.f0[c] / strongest);
+    }
   return b;
 }
-TargetParameters parameters_of(const TexelBytes& b, double ior) {
-  TargetParameters p{{"base_color", {0, 0, 0}},
-                     {"metallic", {b.rough[2] / 255.0}},
-                     {"roughness", {b.rough[1] / 255.0}},
-                     {"ior", {ior}},
-                     {"specular", {1}},
-                     {"specular_color", {0, 0, 0}}};
+/// Parameters of a target by its own names.
+TargetParameters parameters_of(const TexelBytes& b, double ior, ExportTarget target) {
+  std::vector<double> base, tint;
   for (std::size_t c = 0; c < 3; ++c) {
-    p.front().values[c] = from_srgb(b.base[c]);
-    p.back().values[c] = from_srgb(b.tint[c]);
+    base.push_back(from_srgb(b.base[c]));
+    tint.push_back(from_srgb(b.tint[c]));
   }
-  return p;
+  const double roughness = b.rough[1] / 255.0, metal = b.rough[2] / 255.0;
+  if (target == ExportTarget::usd_preview)
+    return {{"diffuseColor", base}, {"specularColor", tint}, {"roughness", {roughness}}};
+  if (target == ExportTarget::open_pbr)
+    return {{"base_color", base},     {"base_metalness", {metal}},
+            {"specular_weight", {1}}, {"specular_color", tint},
+            {"specular_ior", {ior}},  {"specular_roughness", {roughness}}};
+  return {{"base_color", base}, {"metallic", {metal}}, {"roughness", {roughness}},
+          {"ior", {ior}},       {"specular", {1}},     {"specular_color", tint}};
 }
 
 std::vector<FrameAngles<double>> judged_angles() {
@@ -148,7 +157,7 @@ std::vector<FrameAngles<double>> judged_angles() {
   return all;
 }
 
-/// Root mean square of the relative distance between glTF's f and the map's, which may be grey.
+/// Root mean square of the relative distance between the target's f and the map's, which may be grey.
 double residual_of(const std::vector<std::vector<double>>& target,
                    const std::vector<std::vector<double>>& fit,
                    const Surface& surface) {
@@ -263,59 +272,6 @@ class MapMedians {
   std::vector<std::atomic<std::size_t>> missing_;  ///< [parameter]
 };
 
-/// A plane of the image's shape in the xy plane, its texture's top at the top.
-void add_plane(Json& all, std::size_t width, std::size_t height) {
-  const auto across =
-      static_cast<float>(static_cast<double>(width) / static_cast<double>(std::max(width, height)));
-  const auto up = static_cast<float>(static_cast<double>(height) /
-                                     static_cast<double>(std::max(width, height)));
-  std::string bytes;
-  const auto put = [&](auto x) {
-    static_assert(std::endian::native == std::endian::little);  // as glTF has it
-    bytes.append(reinterpret_cast<const char*>(&x), sizeof x);
-  };
-  constexpr std::array<std::array<float, 2>, 4> corners{{{-1, -1}, {1, -1}, {1, 1}, {-1, 1}}};
-  for (const auto& [x, y] : corners)
-    for (const float v : {x * across, y * up, 0.0F}) put(v);
-  for (std::size_t k = 0; k < 4; ++k)
-    for (const float v : {0.0F, 0.0F, 1.0F}) put(v);
-  for (std::size_t k = 0; k < 4; ++k)
-    for (const float v : {1.0F, 0.0F, 0.0F, 1.0F}) put(v);
-  for (const auto& [x, y] : corners)
-    for (const float v : {(x + 1) / 2, (1 - y) / 2}) put(v);
-  for (const std::uint32_t k : {0U, 1U, 2U, 0U, 2U, 3U}) put(k);
-  constexpr int float32 = 5126, uint32 = 5125, vertex_data = 34962, index_data = 34963;
-  constexpr std::array<std::size_t, 6> at{0, 48, 96, 160, 192, 216};
-  Json views = Json::array();
-  for (std::size_t k = 0; k + 1 < at.size(); ++k)
-    views.push_back({{"buffer", 0},
-                     {"byteOffset", at[k]},
-                     {"byteLength", at[k + 1] - at[k]},
-                     {"target", k == 4 ? index_data : vertex_data}});
-  const auto accessor = [&](int view, int type, std::size_t count, const char* shape) {
-    return Json{{"bufferView", view}, {"componentType", type}, {"count", count}, {"type", shape}};
-  };
-  Json positions = accessor(0, float32, 4, "VEC3");
-  positions["min"] = {-across, -up, 0};
-  positions["max"] = {across, up, 0};
-  all["scene"] = 0;
-  all["scenes"] = Json::array({{{"nodes", {0}}}});
-  all["nodes"] = Json::array({{{"name", "map"}, {"mesh", 0}}});
-  all["meshes"] = Json::array(
-      {{{"primitives",
-         Json::array(
-             {{{"attributes", {{"POSITION", 0}, {"NORMAL", 1}, {"TANGENT", 2}, {"TEXCOORD_0", 3}}},
-               {"indices", 4},
-               {"material", 0}}})}}});
-  all["accessors"] =
-      Json::array({positions, accessor(1, float32, 4, "VEC3"), accessor(2, float32, 4, "VEC4"),
-                   accessor(3, float32, 4, "VEC2"), accessor(4, uint32, 6, "SCALAR")});
-  all["bufferViews"] = views;
-  all["buffers"] =
-      Json::array({{{"byteLength", bytes.size()},
-                    {"uri", "data:application/octet-stream;base64," + base64(bytes)}}});
-}
-
 /// Normals of a map as a texture; no pixels where it has none.
 PngImage normals_of(const std::string& path) {
   PngImage png;
@@ -357,7 +313,15 @@ bool is_map(const std::string& path) {
   return schema != header.attributes.end() && schema->second == "gonio.map/1";
 }
 
-MapExport export_map(const std::string& path, std::string& file) {
+bool takes_maps(ExportTarget target) {
+  return target == ExportTarget::gltf || target == ExportTarget::open_pbr ||
+         target == ExportTarget::usd_preview;
+}
+
+MapExport export_map(const std::string& path,
+                     ExportTarget target,
+                     const std::string& output,
+                     std::vector<std::string>& files) {
   if (!is_map(path)) throw bad_input(path, "header", "no gonio:schema", "a map of gonio fit_map");
   const Image header = read_exr_header(path);
   if (header.width * header.height > most_texels)
@@ -366,6 +330,7 @@ MapExport export_map(const std::string& path, std::string& file) {
                                 "them are in memory",
                                 most_texels));
   MapExport e;
+  e.target = target;
   e.map = path;
   const auto attribute = [&](const char* name) {
     return attribute_of(header, name, path, "a map of gonio fit_map");
@@ -387,34 +352,39 @@ MapExport export_map(const std::string& path, std::string& file) {
   const double strongest = strongest_highlight(start, seen);
   e.ior = mapped<IorFromF0, double>(strongest)[0];
 
-  PngImage base, rough, tint;
-  for (auto* png : {&base, &rough, &tint}) {
+  MapTextures textures;
+  for (auto* png : {&textures.base, &textures.rough, &textures.tint}) {
     png->width = e.width;
     png->height = e.height;
     png->pixels.resize(texels);
   }
-  rough.is_srgb = false;
+  textures.rough.is_srgb = false;
   const auto at = judged_angles();
   Surface with_a_lobe;
   with_a_lobe.channels = 3;
   with_a_lobe.kd.assign(3, 0.5);
   with_a_lobe.lobes.push_back(
       {0.3, 0.3, 1, {0.04, 0.04, 0.04}, {1, 1, 1}, {1.5, 1.5, 1.5}, {0, 0, 0}});
-  const TargetForm form = gltf_target.forms(with_a_lobe).back();
+  const Target& of = target == ExportTarget::usd_preview ? usd_preview_target
+                     : target == ExportTarget::open_pbr  ? open_pbr_target
+                                                         : gltf_target;
+  const auto forms = of.forms(with_a_lobe);
+  const TargetForm& form = target == ExportTarget::gltf ? forms.back() : forms.front();
   std::vector<float> residuals(texels, std::numeric_limits<float>::quiet_NaN());
   std::vector<unsigned char> metal(texels);
   MapMedians medians(start, std::move(seen));
   for_each_texel(start, path, [&](std::size_t t, BoundModel& fit) {
     const bool knew = medians.fill(fit);
     const Texel texel = texel_of(fit);
-    const TexelBytes bytes = bytes_of(texel, strongest);
-    base.pixels[t] = bytes.base;
-    rough.pixels[t] = bytes.rough;
-    tint.pixels[t] = bytes.tint;
+    const TexelBytes bytes = bytes_of(texel, strongest, target);
+    textures.base.pixels[t] = bytes.base;
+    textures.rough.pixels[t] = bytes.rough;
+    textures.tint.pixels[t] = bytes.tint;
     metal[t] = texel.metal;
     if (knew)
-      residuals[t] = static_cast<float>(residual_of(form.values(parameters_of(bytes, e.ior), at),
-                                                    evaluate(fit, at), surface_of(fit)));
+      residuals[t] =
+          static_cast<float>(residual_of(form.values(parameters_of(bytes, e.ior, target), at),
+                                         evaluate(fit, at), surface_of(fit)));
   });
   e.metals = static_cast<std::size_t>(std::ranges::count(metal, 1));
   std::erase_if(residuals, [](float r) { return std::isnan(r); });
@@ -425,38 +395,25 @@ MapExport export_map(const std::string& path, std::string& file) {
     e.median_residual = double{residuals[residuals.size() / 2]};
     e.high_residual = double{residuals[residuals.size() - 1 - residuals.size() / 20]};
   }
-  e.lost = gltf_target.lost(start, surface_of(start), form.parameters);
+  e.lost = of.lost(start, surface_of(start), form.parameters);
 
-  std::vector<const PngImage*> textures{&base, &rough, &tint};
-  const PngImage normals = normals_of(path);
-  Json material{
-      {"name", "map"},
-      {"pbrMetallicRoughness",
-       {{"baseColorTexture", {{"index", 0}}}, {"metallicRoughnessTexture", {{"index", 1}}}}},
-      {"extensions",
-       {{"KHR_materials_ior", {{"ior", e.ior}}},
-        {"KHR_materials_specular", {{"specularColorTexture", {{"index", 2}}}}}}}};
-  if (!normals.pixels.empty()) {
-    textures.push_back(&normals);
-    material["normalTexture"] = {{"index", 3}};
+  textures.normals = normals_of(path);
+  if (target == ExportTarget::gltf) {
+    files = {gltf_file_of(e, textures, stack)};
+    return e;
   }
-  material["extras"] = {{"gonio", {{"model", e.model}, {"stack", stack}}}};
-  Json all{{"asset", {{"version", "2.0"}, {"generator", "gonio"}}},
-           {"extensionsUsed", {"KHR_materials_ior", "KHR_materials_specular"}},
-           {"materials", Json::array({material})}};
-  constexpr int linear = 9729, linear_mipmap = 9987, clamp_to_edge = 33071;
-  all["samplers"] = Json::array({{{"magFilter", linear},
-                                  {"minFilter", linear_mipmap},
-                                  {"wrapS", clamp_to_edge},
-                                  {"wrapT", clamp_to_edge}}});
-  all["images"] = all["textures"] = Json::array();
-  for (std::size_t k = 0; k < textures.size(); ++k) {
-    all["images"].push_back({{"mimeType", "image/png"},
-                             {"uri", "data:image/png;base64," + base64(png_bytes(*textures[k]))}});
-    all["textures"].push_back({{"sampler", 0}, {"source", k}});
+  files.resize(1);
+  for (const auto& [name, image] : {std::pair{"color", &textures.base},
+                                    {"roughness_metal", &textures.rough},
+                                    {"highlight", &textures.tint},
+                                    {"normal", &textures.normals}}) {
+    if (image->pixels.empty()) continue;
+    e.textures.push_back(
+        fmt::format("{}_{}.png", std::filesystem::path(output).stem().string(), name));
+    files.push_back(png_bytes(*image));
   }
-  add_plane(all, e.width, e.height);
-  file = text_of(all);
+  files[0] = target == ExportTarget::usd_preview ? usd_preview_file_of(e, stack)
+                                                 : open_pbr_file_of(e, stack);
   return e;
 }
 

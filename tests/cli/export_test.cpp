@@ -136,9 +136,60 @@ TEST(ExportCommand, WritesAMapAsTexturesThatShowItsFits) {
     EXPECT_EQ(normal[2], 255);
   }
   expect_one_line(gonio(f, "inspect maps.exr"), 3, "a map of 6 × 4 fits");
-  expect_one_line(gonio(f, "export maps.exr --to mitsuba -o m.xml"), 2, "gltf");
+  expect_one_line(gonio(f, "export maps.exr --to mitsuba -o m.xml"), 2,
+                  "gltf, open_pbr and usd_preview");
   expect_one_line(gonio(f, "export s/image_000.exr --to gltf -o m2.gltf"), 3, "image_000.exr");
   EXPECT_FALSE(std::filesystem::exists(f / "m2.gltf"));
+}
+
+TEST(ExportCommand, WritesAMapWithTexturesBesideItForOpenPbrAndUsd) {
+  const Folder f;
+  Image map{3, 2, {"f0", "kd.R", "kd.G", "kd.B", "alpha"}, {}, {}};
+  map.planes = {{0.04F, 0.04F, 0.04F, 0.04F, 0.04F, 0.9F},
+                {0.5F, 0.4F, 0.3F, 0.2F, 0.1F, 0},
+                {0.2F, 0.2F, 0.2F, 0.2F, 0.2F, 0},
+                {0.1F, 0.1F, 0.1F, 0.1F, 0.1F, 0},
+                {0.25F, 0.16F, 0.16F, 0.16F, 0.16F, 0.09F}};
+  map.attributes = {{"gonio:schema", "gonio.map/1"},
+                    {"gonio:model", "lambert+ggx/smith_ggx.correlated/schlick"},
+                    {"gonio:stack", "none"},
+                    {"gonio:channels", "R,G,B"}};
+  for (const char* axis : {"normal.X", "normal.Y", "normal.Z"}) {
+    map.channels.emplace_back(axis);
+    map.planes.emplace_back(6, std::string(axis) == "normal.Z" ? 1.0F : 0.0F);
+  }
+  write_exr(f / "maps.exr", map);
+  const auto pixels = [&](const std::string& name) {
+    return png_pixels(read_bytes(f / name)).pixels;
+  };
+  const auto pbr = gonio(f, "export maps.exr --to open_pbr -o surface.mtlx --json").json();
+  EXPECT_EQ(pbr["textures"], nlohmann::json({"surface_color.png", "surface_roughness_metal.png",
+                                             "surface_highlight.png", "surface_normal.png"}));
+  EXPECT_LT(pbr["median_residual"], 0.1) << "OpenPBR's Fresnel is exact, and its base compensated";
+  EXPECT_NEAR(pixels("surface_color.png")[0][0], srgb_byte(0.5), 1);
+  EXPECT_NEAR(pixels("surface_color.png")[5][0], srgb_byte(0.9), 1) << "a metal's";
+  EXPECT_NEAR(pixels("surface_roughness_metal.png")[0][1], 127.5, 1);
+  EXPECT_EQ(pixels("surface_roughness_metal.png")[5][2], 255);
+  EXPECT_EQ(pixels("surface_highlight.png")[0][0], 255);
+  EXPECT_EQ(outside_faults(f, "surface.mtlx").value_or(""), "");
+
+  const auto usd = gonio(f, "export maps.exr --to usd_preview -o u.usda --json").json();
+  EXPECT_LT(usd["median_residual"], 0.1);
+  EXPECT_NEAR(pixels("u_color.png")[0][0], srgb_byte(0.5), 1);
+  EXPECT_EQ(pixels("u_color.png")[5][0], 0) << "all of a metal's is in its highlight";
+  EXPECT_NEAR(pixels("u_highlight.png")[0][0], srgb_byte(0.04), 1);
+  EXPECT_NEAR(pixels("u_highlight.png")[5][0], srgb_byte(0.9), 1);
+  EXPECT_EQ(outside_faults(f, "u.usda").value_or(""), "");
+
+  const auto o = gonio(f, "export maps.exr --to usd_preview -o u.usda");
+  EXPECT_NE(o.out.find("files     u_color.png, u_roughness_metal.png"), o.out.npos) << o.out;
+  expect_one_line(gonio(f, "export maps.exr --to usd_preview -o 'a@b.usda'"), 2, "without quotes");
+  EXPECT_FALSE(std::filesystem::exists(f / "a@b.usda"));
+  // A texture is no less an output than the file: no input is replaced by one.
+  std::filesystem::copy(f / "maps.exr", f / "v_color.png");
+  const std::string bytes = read_bytes(f / "v_color.png");
+  expect_one_line(gonio(f, "export v_color.png --to usd_preview -o v.usda"), 2, "v_color.png");
+  EXPECT_EQ(read_bytes(f / "v_color.png"), bytes);
 }
 
 TEST(ExportCommand, FillsInWhatTexelsOfAMapDoNotKnowAndLetsNoneSetAllOthersHighlight) {

@@ -15,22 +15,26 @@ found = [e.GetErrorAsString() for e in
          UsdValidation.ValidationContext(UsdValidation.ValidationRegistry().GetOrLoadAllValidators()).Validate(stage)]
 
 shaders = [UsdShade.Shader(p) for p in stage.Traverse() if p.IsA(UsdShade.Shader)]
-definition = Sdr.Registry().GetShaderNodeByIdentifier("UsdPreviewSurface")
-known = definition.GetShaderInputNames()
+textures = {"UsdUVTexture", "UsdPrimvarReader_float2"}  # of a map
 ranges = {"ior": (0, 20), "displacement": (-1e9, 1e9), "normal": (-1, 1), "emissiveColor": (0, 1e9)}  # others [0, 1]
 doc = mx.createDocument()
 node = doc.addNode("UsdPreviewSurface", "shader", "surfaceshader")
 for shader in shaders:
-    if shader.GetIdAttr().Get() != "UsdPreviewSurface":
+    identifier = shader.GetIdAttr().Get()
+    if identifier != "UsdPreviewSurface" and identifier not in textures:
         found.append("a shader that is no UsdPreviewSurface: %s" % shader.GetPath())
+        continue
+    definition = Sdr.Registry().GetShaderNodeByIdentifier(identifier)
     for one in shader.GetInputs():
         name, value = one.GetBaseName(), one.Get()
-        if name not in known:
-            found.append("an input that UsdPreviewSurface has not: " + name)
+        if name not in definition.GetShaderInputNames():
+            found.append("an input that %s has not: %s" % (identifier, name))
             continue
         kind = definition.GetShaderInput(name).GetTypeAsSdfType().GetSdfType()
         if one.GetTypeName() != kind:
             found.append("%s is a %s, and a %s in the definition" % (name, one.GetTypeName(), kind))
+        if one.HasConnectedSource() or identifier in textures:
+            continue
         numbers = list(value) if hasattr(value, "__len__") else [value]
         low, high = ranges.get(name, (0, 1))
         if not all(low <= x <= high for x in numbers):
