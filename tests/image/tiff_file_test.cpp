@@ -36,10 +36,10 @@ TEST(TiffFile, IsRefusedWhereGonioWasBuiltWithoutLibtiff) {
 constexpr Rectangle all_of_it{0, 0, 5, 4};
 
 std::vector<float> plane_of(ImageFile& file, const Rectangle& part, std::size_t channel) {
-  std::vector<float> plane(part.size());
-  const std::array<std::size_t, 1> only{channel};
-  const std::array<float*, 1> to{plane.data()};
-  file.read(part, only, to);
+  std::vector<float> first(part.size()), plane(part.size());
+  const std::array<std::size_t, 2> both{0, channel};  // several at a time, as a stack reads them
+  const std::array<float*, 2> to{first.data(), plane.data()};
+  file.read(part, both, to);
   return plane;
 }
 
