@@ -408,8 +408,8 @@ MapExport export_map(const std::string& path,
                                     {"highlight", &textures.tint},
                                     {"normal", &textures.normals}}) {
     if (image->pixels.empty()) continue;
-    e.textures.push_back(
-        fmt::format("{}_{}.png", std::filesystem::path(output).stem().string(), name));
+    e.textures.push_back(fmt::format("{}_{}_{}.png", std::filesystem::path(output).stem().string(),
+                                     name_of(target), name));
     files.push_back(png_bytes(*image));
   }
   files[0] = target == ExportTarget::usd_preview ? usd_preview_file_of(e, stack)

@@ -163,33 +163,35 @@ TEST(ExportCommand, WritesAMapWithTexturesBesideItForOpenPbrAndUsd) {
     return png_pixels(read_bytes(f / name)).pixels;
   };
   const auto pbr = gonio(f, "export maps.exr --to open_pbr -o surface.mtlx --json").json();
-  EXPECT_EQ(pbr["textures"], nlohmann::json({"surface_color.png", "surface_roughness_metal.png",
-                                             "surface_highlight.png", "surface_normal.png"}));
+  EXPECT_EQ(pbr["textures"],
+            nlohmann::json({"surface_open_pbr_color.png", "surface_open_pbr_roughness_metal.png",
+                            "surface_open_pbr_highlight.png", "surface_open_pbr_normal.png"}));
   EXPECT_LT(pbr["median_residual"], 0.1) << "OpenPBR's Fresnel is exact, and its base compensated";
-  EXPECT_NEAR(pixels("surface_color.png")[0][0], srgb_byte(0.5), 1);
-  EXPECT_NEAR(pixels("surface_color.png")[5][0], srgb_byte(0.9), 1) << "a metal's";
-  EXPECT_NEAR(pixels("surface_roughness_metal.png")[0][1], 127.5, 1);
-  EXPECT_EQ(pixels("surface_roughness_metal.png")[5][2], 255);
-  EXPECT_EQ(pixels("surface_highlight.png")[0][0], 255);
+  EXPECT_NEAR(pixels("surface_open_pbr_color.png")[0][0], srgb_byte(0.5), 1);
+  EXPECT_NEAR(pixels("surface_open_pbr_color.png")[5][0], srgb_byte(0.9), 1) << "a metal's";
+  EXPECT_NEAR(pixels("surface_open_pbr_roughness_metal.png")[0][1], 127.5, 1);
+  EXPECT_EQ(pixels("surface_open_pbr_roughness_metal.png")[5][2], 255);
+  EXPECT_EQ(pixels("surface_open_pbr_highlight.png")[0][0], 255);
   EXPECT_EQ(outside_faults(f, "surface.mtlx").value_or(""), "");
 
   const auto usd = gonio(f, "export maps.exr --to usd_preview -o u.usda --json").json();
   EXPECT_LT(usd["median_residual"], 0.1);
-  EXPECT_NEAR(pixels("u_color.png")[0][0], srgb_byte(0.5), 1);
-  EXPECT_EQ(pixels("u_color.png")[5][0], 0) << "all of a metal's is in its highlight";
-  EXPECT_NEAR(pixels("u_highlight.png")[0][0], srgb_byte(0.04), 1);
-  EXPECT_NEAR(pixels("u_highlight.png")[5][0], srgb_byte(0.9), 1);
+  EXPECT_NEAR(pixels("u_usd_preview_color.png")[0][0], srgb_byte(0.5), 1);
+  EXPECT_EQ(pixels("u_usd_preview_color.png")[5][0], 0) << "all of a metal's is in its highlight";
+  EXPECT_NEAR(pixels("u_usd_preview_highlight.png")[0][0], srgb_byte(0.04), 1);
+  EXPECT_NEAR(pixels("u_usd_preview_highlight.png")[5][0], srgb_byte(0.9), 1);
   EXPECT_EQ(outside_faults(f, "u.usda").value_or(""), "");
 
   const auto o = gonio(f, "export maps.exr --to usd_preview -o u.usda");
-  EXPECT_NE(o.out.find("files     u_color.png, u_roughness_metal.png"), o.out.npos) << o.out;
+  EXPECT_NE(o.out.find("files     u_usd_preview_color.png"), o.out.npos) << o.out;
   expect_one_line(gonio(f, "export maps.exr --to usd_preview -o 'a@b.usda'"), 2, "without quotes");
   EXPECT_FALSE(std::filesystem::exists(f / "a@b.usda"));
   // A texture is no less an output than the file: no input is replaced by one.
-  std::filesystem::copy(f / "maps.exr", f / "v_color.png");
-  const std::string bytes = read_bytes(f / "v_color.png");
-  expect_one_line(gonio(f, "export v_color.png --to usd_preview -o v.usda"), 2, "v_color.png");
-  EXPECT_EQ(read_bytes(f / "v_color.png"), bytes);
+  std::filesystem::copy(f / "maps.exr", f / "v_usd_preview_color.png");
+  const std::string bytes = read_bytes(f / "v_usd_preview_color.png");
+  expect_one_line(gonio(f, "export v_usd_preview_color.png --to usd_preview -o v.usda"), 2,
+                  "v_usd_preview_color.png");
+  EXPECT_EQ(read_bytes(f / "v_usd_preview_color.png"), bytes);
 }
 
 TEST(ExportCommand, FillsInWhatTexelsOfAMapDoNotKnowAndLetsNoneSetAllOthersHighlight) {
