@@ -50,7 +50,8 @@ ImagesInCommon look_at_all(const Stack& s) {
     const auto file = open_image(s.path_of(path), s.linear);
     if (size.width == 0) size = {0, 0, file->width(), file->height()};
     expect_size_of(paths[0], size.width, size.height, *file);
-    all.in_unit_range = all.in_unit_range && file->in_unit_range();
+    const bool is_frame = path == s.dark || path == s.flat;
+    all.in_unit_range = all.in_unit_range && (is_frame || file->in_unit_range());
   }
   return all;
 }

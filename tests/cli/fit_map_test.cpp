@@ -135,6 +135,8 @@ TEST(StackCommand, TakesPhotographsInTiffWithNumbersFromZeroToOne) {
   // A number of the file itself is 65535 times too large.
   expect_one_line(gonio(f, "stack photo.lp --white 26214 -o x.json"), 2, "over 65535, 0.4");
   EXPECT_EQ(gonio(f, "stack photo.lp --white 0.4 -o x.json --json").json()["saturation"], 1);
+  f.write("dark.tif", tiff_of({.bits = 32}));  // whatever the frames are
+  EXPECT_EQ(gonio(f, "stack photo.lp --dark dark.tif -o x.json --json").json()["saturation"], 1);
   f.write("photo.tif", tiff_of({.is_line = false}));
   expect_one_line(gonio(f, "stack photo.lp -o y.json"), 3, "photo.tif: TransferFunction");
   EXPECT_EQ(gonio(f, "stack photo.lp --linear -o y.json --json").json()["linear"], true);
