@@ -13,6 +13,9 @@ find_package(embree 3 REQUIRED)
 find_package(PNG REQUIRED)
 find_package(TIFF 4.5 QUIET)  # the first that has handlers of its own for each file
 gonio_option_if_found(GONIO_TIFF gonio_tiff ${TIFF_FOUND} "Read TIFF, which needs libtiff from 4.5 on")
+if(gonio_tiff AND NOT TIFF_FOUND)
+  message(FATAL_ERROR "GONIO_TIFF needs libtiff from 4.5 on: cmake/install_missing.sh has the package")
+endif()
 find_package(PkgConfig REQUIRED)
 pkg_check_modules(nettle REQUIRED IMPORTED_TARGET nettle)
 
