@@ -32,7 +32,7 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
   if (!schlick || !joint || !plain) return;
   const bool more = schlick->time.ns > joint->time.ns;
   const auto words = [&](const CostRow& other) {
-    return is_tie(*schlick, other)            ? "as long as"
+    return is_tie(*schlick, other)            ? "as long, by what was measured, as"
            : schlick->time.ns > other.time.ns ? "longer than"
                                               : "less than";
   };

@@ -327,8 +327,9 @@ void trust(Findings& to, const CrossFitRows& r) {
     to.say(
         "Shifts leave these out, but for forms that are the truth to the last digits at a bound.");
   if (error > 0)
-    to.say(
-        fmt::format("The random walks' noise shifts a fitted roughness by at most {:.1g}.", error));
+    to.say(fmt::format(
+        "The random walks' noise shifts a fitted roughness of the exact form by at most {}.",
+        rounded_up(error)));
 }
 
 }  // namespace

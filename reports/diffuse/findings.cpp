@@ -13,8 +13,9 @@ namespace {
 constexpr std::string_view lambert = "diffuse.lambert", disney = "diffuse.disney",
                            eon = "diffuse.eon";
 
+/// Greatest ΔE2000, never below itself.
 std::string delta(double x) {
-  return fmt::format("{:.{}f}", x, x < 9.95 ? 1 : 0);
+  return rounded_up(x);
 }
 
 /// Forms that reflect more than they receive, the brightest first.

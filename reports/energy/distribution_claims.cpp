@@ -76,8 +76,8 @@ void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
       verdict_on_small(std::abs(low->bias)),
       fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
       fmt::format(
-          "times π² over their number, {0} samples are off by {1} under a sky brighter towards "
-          "the zenith. From the middle of each step they are off by {2}.",
+          "the sum over {0} samples, times π²/{0}, is off by {1} under a sky brighter towards the "
+          "zenith. With samples at the middle of each step it is off by {2}.",
           low->samples, percent(low->bias, 2), percent(middle->bias, 2)));
 }
 

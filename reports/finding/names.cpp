@@ -16,7 +16,7 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 69> names{
      {"masking.schlick_ggx.direct", "Schlick's k = (r+1)²/8"},
      {"masking.schlick_ggx.half_alpha", "Schlick's k = α/2"},
      {"masking.ue_joint", "Unreal's joint form"},
-     {"masking.hammon", "Hammon's joint form"},
+     {"masking.hammon", "Unreal's joint form (Hammon)"},
      {"fresnel.schlick", "Schlick"},
      {"fresnel.schlick.f90", "Schlick, F90 fitted"},
      {"fresnel.f82", "F82"},

@@ -86,7 +86,7 @@ std::string streaming_aside(const Facts& f, std::string_view taken, std::string_
   const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
   if (!a || !b) return {};
   if (const auto d = more(*b, *a); d.survives && d.ns > 0) return {};
-  return " (a whole model takes no longer where memory is the limit)";
+  return " (no difference measured in a whole model read from memory)";
 }
 
 // --- Masking ---
@@ -126,12 +126,13 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   const auto factor = [](double log_rms) { return fmt::format("×/÷ {:.3g}", std::exp(log_rms)); };
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
-       fmt::format("typically {} from published fits (the median; {} materials have a longer tail "
-                   "by their published exponent)",
-                   factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
+       fmt::format(
+           "typically {} off measured materials (the median of their published fits; {} have a "
+           "longer tail)",
+           factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
        std::string(no_more),
        fmt::format(
-           "you fit γ, too (median {:.2g} of those determined): then GTR with its own Smith, "
+           "you fit gamma, too (median {:.2g} of those determined): then GTR with its own Smith, "
            "typically {}, {}",
            t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
@@ -408,7 +409,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
              cost_text(*taken, cheap),
              ""};
   if (taken->form != cheap_id && own)
-    d.error += below_lobe ? fmt::format("; reflects at most {} of the light (Lambert: {})",
+    d.error += below_lobe ? fmt::format("; reflects up to {} of the light (Lambert: {})",
                                         made(*form_of(taken->form)), made(*lambert))
                           : fmt::format(" ({}Lambert: {})",
                                         is_exact(*taken) ? "it is the reference; " : "",
@@ -436,7 +437,8 @@ const Facts::Precision* precision_of(const Facts& f,
 /// A whole highlight: D in itself keeps its digits where D V F is already infinite.
 void precision(std::vector<Decision>& to, const Facts& f) {
   const auto *half = precision_of(f, precision_model, "directions", "half"),
-             *own = precision_of(f, "ndf.ggx", "cross", "half, flushed");
+             *own = precision_of(f, "ndf.ggx", "cross", "half, flushed"),
+             *kept = precision_of(f, "ndf.ggx", "cross", "half");
   if (!half || !own || !own->safe_from) return;
   if (!half->safe_from) {
     to.push_back({"Precision: D V F NoL of GGX in half", "float instead", "ndf.ggx",
@@ -449,9 +451,13 @@ void precision(std::vector<Decision>& to, const Facts& f) {
        fmt::format("≤ {} on metal, light and view up to {:.0f}° (F0 of {:g} or more; "
                    "a search found no larger error, which is no proof)",
                    percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
-       fmt::format("all below roughness {0} is drawn as {0}",
+       fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
-       fmt::format("only D is in half: then α clamped at {}", rounded_up(*own->safe_from))});
+       fmt::format("only D is in half: then α clamped at {}{}", rounded_up(*own->safe_from),
+                   kept && kept->safe_from
+                       ? fmt::format(", or at {} where the processor keeps subnormals",
+                                     rounded_up(*kept->safe_from))
+                       : "")});
 }
 
 }  // namespace

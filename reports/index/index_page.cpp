@@ -196,10 +196,13 @@ Part lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
   std::string text =
       "A form is one formula for a part of a model. “Error left” compares it with exact Fresnel, "
-      "exact Smith masking and all bounces of light, and on matte surfaces with EON. “Costs” is "
-      "the "
-      "time that a float sample takes beyond the usual form. Usual are Schlick's masking with k = "
-      "(r+1)²/8, Schlick's Fresnel, GGX, one bounce and Lambert.";
+      "exact (height-correlated) Smith masking and all bounces of light, and on matte surfaces "
+      "with "
+      "EON. “Costs” is the CPU time that one evaluation in float takes beyond the usual form. "
+      "Usual "
+      "are Schlick's masking with k = (r+1)²/8, Schlick's Fresnel, GGX, one bounce and Lambert. G₂ "
+      "is "
+      "masking and shadowing together; cosines are those to the normal.";
   if (m && m->model_ns)
     text += fmt::format(" A whole GGX highlight takes {} ns.", significant(*m->model_ns, 2));
   text += m ? fmt::format(" Measured on {} with {} from cache, {} setting.",
@@ -276,7 +279,7 @@ Section cards(const ReportIndex& i) {
         href, markup_text(capital(std::string(r.what))), markup_text(sentence_of(r)), r.name,
         r.first.figures.empty()
             ? many(r.pictures, "picture")
-            : fmt::format(R"(<a href="{}/{}.svg">first picture</a> of {})", r.name,
+            : fmt::format(R"({2} pictures, <a href="{0}/{1}.svg">the first</a>)", r.name,
                           r.first.figures[0].id, count_text(r.pictures)),
         r.ms >= 1000 ? significant(r.ms / 1000) + "\u202fs" : significant(r.ms) + "\u202fms");
   }
@@ -342,21 +345,20 @@ std::string index_page_html(const ReportIndex& i) {
                 "reflects more than {} of the incoming light is left out. If all forms do, the one "
                 "that reflects least is taken, whatever its ΔE.",
                 least_diffuse_cosine, page::percent(no_light_made, 4)),
-            "Among forms that take the same measured time, the nearest is taken, or the usual "
-            "form itself. GGX and the split sum are judged by no threshold: they are "
+            "Among forms whose error is small and that take the same time, the usual one is taken, "
+            "or else the nearest. GGX and the split sum are judged by no threshold: they are "
             "what people ship.",
             "Colours of Fresnel forms are those of a rough surface under even light, beside a "
             "perfect "
             "diffuser in D65, without a tone map. Views are from cosine 0.1 to 1, by 0.05; "
             "roughness "
-            "is 0.1 or more. A metal's true colour is that of its spectrum; three wavelengths are "
-            "650, 550 and 450 nm.",
+            "is 0.1 or more. A metal's true colour is that of its spectrum. Forms at three "
+            "wavelengths use 650, 550 and 450 nm.",
             "For the split sum's ΔE the exposure gives a white ball half of the display's white.",
             "A ≤ is the greatest value at the roughnesses, views and points of a ball that were "
             "computed. Between them it may be more, most so under single lights.",
             "Masking is compared with height-correlated Smith for GGX: the RMS error in G₂ "
-            "(masking "
-            "and shadowing together) over both cosines from 0.05 to 1 and over roughness.",
+            "over both cosines from 0.05 to 1 and over roughness.",
             "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on. For image-based "
             "light the reference is transport between the facets under even light. For single "
             "lights it is random walks, whose error is included, on a ball lit from 30° and from "

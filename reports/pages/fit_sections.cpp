@@ -18,7 +18,7 @@ using namespace page;
 using page::Group;
 
 std::string log_rms_text(double x) {
-  return x < 0.3 ? percent(x) : significant(x);
+  return significant(x);
 }
 namespace {
 
@@ -80,8 +80,8 @@ std::string map_words(const ResidualMap& m, double limit) {
     return degrees_text((edges[i] + edges[i + 1]) / 2);
   };
   return fmt::format(
-      "{} cells: the median is within {}. In the worst, noise included, the model is {} too {}, "
-      "at half-vector angle {}, difference angle {}. The strongest colours stand for {} or more.",
+      "In half of the {} cells the model is off by at most {}. Worst single cell, noise included: "
+      "{} too {}, at θ_h {}, θ_d {}. The strongest colours stand for {} or more.",
       count, size_text(median(sizes)), size_text(m.mean[worst]),
       m.mean[worst] < 0 ? "dark" : "bright", middle(m.theta_h_deg, worst / nd),
       middle(m.theta_d_deg, worst % nd), size_text(std::log(limit)));
@@ -128,10 +128,7 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
       auto& row = t.rows.emplace_back(
           std::vector{Cell(plain(b.from_deg, 3) + "–" + plain(b.to_deg, 3)),
                       Cell(count_text(b.values)), Cell(there ? significant(b.rms, 2) : "–"),
-                      Cell(!there || !known(b.log_rms) ? "–"
-                           : most < 0.3                ? percent(b.log_rms)
-                                                       : significant(b.log_rms)),
-                      Cell()});
+                      Cell(there && known(b.log_rms) ? significant(b.log_rms) : "–"), Cell()});
       if (there && known(b.log_rms)) row.back().mark = bar(b.log_rms / most);
     }
     bands.parts.emplace_back(std::move(t));
@@ -220,19 +217,19 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   }
   const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
   const bool has_error = data != h.albedo.end() && data->error > 0;
-  std::string words =
-      fmt::format("The fitted model reflects most at θ_i {}: {} of the light{}{}.{}",
-                  degrees_text(p.theta_i_deg[at]), share(top),
-                  known(p.data_albedo[at][channel])
-                      ? fmt::format("; the table reflects {}{}", share(p.data_albedo[at][channel]),
-                                    has_error ? fmt::format(" (its sum is off by {} at most)",
-                                                            significant(data->error, 2))
-                                              : "")
-                      : "",
-                  several ? ", channel " + d.channels[channel] : "",
-                  above(top) ? " Above 1 more light leaves than arrives: no surface "
-                               "does that."
-                             : "");
+  std::string words = fmt::format(
+      "Of the angles shown the fitted model reflects most at θ_i {}: {} of the light{}{}.{}",
+      degrees_text(p.theta_i_deg[at]), share(top),
+      known(p.data_albedo[at][channel])
+          ? fmt::format("; the table reflects {}{}", share(p.data_albedo[at][channel]),
+                        has_error ? fmt::format(" (its sum is off by {} at most)",
+                                                significant(data->error, 2))
+                                  : "")
+          : "",
+      several ? ", channel " + d.channels[channel] : "",
+      above(top) ? " Above 1 more light leaves than arrives: no surface "
+                   "does that."
+                 : "");
   std::vector<double> ratios;
   for (const double r : p.peak_ratio)
     if (known(r)) ratios.push_back(r);
@@ -248,9 +245,10 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   return {
       "Directional albedo",
       fmt::format("Share of the light from one direction that is reflected into all others. {}",
-                  has_data ? "Where half of the directions or more are missing, the table gives no "
-                             "value."
-                           : "The table has too few directions for its own."),
+                  has_data ? "Where samples are missing or too far apart, the table gives no value."
+                  : h.albedo.empty()
+                      ? "The table has too few directions for its own."
+                      : "The table's own stands under “What the table can be trusted for”."),
       {Prose{std::move(words)}, Group{"columns light", {picture, std::move(t)}}}};
 }
 
@@ -392,7 +390,7 @@ std::string phase_words(std::string name) {
       {{"load", "reading"},
        {"digest", "hash of the file"},
        {"columns", "angles"},
-       {"start", "first values"},
+       {"start", "starting values"},
        {"certificate", "search for better values"},
        {"limits", "one-sided limits"},
        {"physics", "albedo"}}};
@@ -450,7 +448,8 @@ Section solver(const FitDocument& d, Pictures& pictures) {
              {"robust loss", words(d.robust)}}});
   return {"How the solver got there",
           s.iterations == 0 && s.termination == "converged"
-              ? "The global search had already reached the optimum: the solver took no step."
+              ? "The search for starting values already ended in this minimum: the solver changed "
+                "nothing."
               : s.message,
           {std::move(beside)}};
 }

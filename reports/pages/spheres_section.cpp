@@ -154,9 +154,9 @@ std::string how(const Spheres& s) {
       "the table has a "
       "value. A grid is interpolated. A list shows its nearest sample, where both its "
       "directions are within {}°; samples mirrored at the plane of incidence, or with light and "
-      "view exchanged, also count.{} From spacing only: the fit sampled at the table's directions "
-      "and "
-      "interpolated as the table is, compared with the fit itself. The model has no part in it.",
+      "view exchanged, also count.{} From spacing only: "
+      "what the spacing of the samples would make of an exact model, here the fit sampled at the "
+      "table's directions.",
       Spheres::reach_deg,
       colours
           ? std::string()

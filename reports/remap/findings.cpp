@@ -139,8 +139,8 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
            verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith),
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", remapped.value, remapped.smith,
                        remapped.nov),
-           fmt::format("at NoV {:g} exact Smith of a medium roughness darkens it by {}.",
-                       remapped.nov, percent(1 - remapped.smith, 2)));
+           fmt::format("exact Smith of roughness {:.2g} darkens it by {}.", remapped.roughness,
+                       percent(1 - remapped.smith, 2)));
 }
 
 /// Largest factor, up or down, by which a ratio that is so many times as large is off.

@@ -96,8 +96,8 @@ void savings(Findings& to, const ScenesRows& r) {
                     : "No faster set of forms keeps the tolerance there with a plan's margin.");
   }
   to.headline = fmt::format(
-      "Leaving out what nobody sees saves {} or more of a shader's time in half of {} scenes, and "
-      "up to {}.{}",
+      "Leaving out what nobody sees saves {} or more of a shader's time in half of the {} scenes "
+      "whose plans hold, and up to {}.{}",
       at_least(middle), held.size(), percent(all.back(), 2),
       slower.empty() ? "" : fmt::format(" In {} scenes the plan takes longer.", slower.size()));
   to.say(fmt::format(

@@ -90,7 +90,7 @@ void say_errors(std::vector<std::string>& out, const scene::Plan& p, const std::
         bound_text(worst.checked.worst), worst.name == m->name ? "" : of(worst)));
     if (m->reference_error >= 0.1 * error_of(*m))
       out.push_back(fmt::format("Up to {} of {}'s error may be the reference's own.",
-                                bound_text(m->reference_error), m->name));
+                                bound_text(m->reference_error, p.holds ? 2 : 3), m->name));
   }
   if (const auto* m = farthest(p, false))
     out.push_back(fmt::format(
@@ -341,9 +341,10 @@ namespace gonio {
 
 std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
   const auto& f = *m.failed;
-  const auto at = cost == scene::Cost::time
-                      ? fmt::format("{:.3g} ns", f.ns)
-                      : counted(static_cast<std::size_t>(std::round(f.ops)), "operation");
+  // The nearest set is one by operations, and so may a cheaper one be.
+  const bool by_time = cost == scene::Cost::time && m.passed_over > 0 && f.ns < m.ns;
+  const auto at = by_time ? fmt::format("{:.3g} ns", f.ns)
+                          : counted(static_cast<std::size_t>(std::round(f.ops)), "operation");
   const auto which = fmt::format("the {}, at {},",
                                  m.passed_over > 1    ? "cheapest of them"
                                  : m.passed_over == 1 ? "cheapest"

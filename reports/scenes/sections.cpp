@@ -235,21 +235,22 @@ page::Page report_page(const ScenesReport& r) {
       switches(r),
       {"How it is measured",
        "",
-       {Points{{"Front light: three lights on the viewer's side. Rim light: one of these, and two "
-                "from behind the sphere. Sky and sun: an even sky over a darker ground, and a "
-                "small bright sun.",
-                "The points are drawn evenly over the picture of a sphere. For every second one, "
-                "four are drawn and the nearest to a highlight is likely to be taken.",
-                "Everything on is one surface with each effect in its exact form, in double, "
-                "whether the material has it or not, as in a shader for all materials. Light "
-                "between facets is Kulla and Conty's lobe there, which shaders ship.",
-                "Plans are compared with random walks between facets, tabulated. Each point's "
-                "difference has what the table may be off by added.",
-                "Times are of column kernels, composed on both sides: nothing is fused for the "
-                "plan only.",
-                fmt::format("A plan is chosen on one set of points, checked on a second, and "
-                            "verified here on a third of {}.",
-                            count_text(all.rows.empty() ? 0 : all.rows[0].samples))}}}}};
+       {Points{
+           {"Front light: three lights on the viewer's side. Rim light: one of these, and two "
+            "from behind the sphere. Sky and sun: an even sky over a darker ground, and a "
+            "small bright sun.",
+            "The points are drawn evenly over the picture of a sphere. For every second one, "
+            "four are drawn and the nearest to a highlight is likely to be taken.",
+            "Everything on is one surface with each effect in its exact form, in double, "
+            "whether the material has it or not, as in a shader for all materials. Light "
+            "between facets is Kulla and Conty's lobe there, which shaders ship.",
+            "Plans are compared with random walks between facets, tabulated. Each point's "
+            "difference has what the table may be off by added. Rows of one effect leave it out.",
+            "Times are of column kernels, composed on both sides: nothing is fused for the "
+            "plan only.",
+            fmt::format("A plan is chosen on one set of points, checked on a second, and "
+                        "verified here on a third of {}.",
+                        count_text(all.rows.empty() ? 0 : all.rows[0].samples))}}}}};
   if (!all.left_out.empty()) {
     Pairs list;
     for (const auto& m : all.left_out) list.each.emplace_back(m.material, m.why);

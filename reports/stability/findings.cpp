@@ -84,9 +84,9 @@ void which_alpha(Findings& to, const StabilityRows& r) {
     std::string_view name, id, form;
   };
   static constexpr Named others[] = {
-      {"Beckmann", "ndf.beckmann", "cross"},
-      {"Blinn–Phong", "ndf.blinn_phong", "cross"},
-      {"GTR of every gamma", "ndf.gtr", "cross"},
+      {"Beckmann from |n × h|²", "ndf.beckmann", "cross"},
+      {"Blinn–Phong from |n × h|²", "ndf.blinn_phong", "cross"},
+      {"GTR of all gammas from |n × h|²", "ndf.gtr", "cross"},
       {"The mobile form with a cross product", "ndf.ggx.mobile.cross", "cross"},
       {"The mobile form from NoH", "ndf.ggx.mobile", "cosine"},
       {"Unreal's mobile GGX", "ndf.ggx.ue_mobile", "cosine"}};
@@ -101,7 +101,10 @@ void which_alpha(Findings& to, const StabilityRows& r) {
                            worst_text(row->worst_from_usual.value_or(row->worst_rel))));
       else {
         // Half's NoH is taken for exact: its own rounding is that of mixed numbers.
-        const std::string_view given = o.form == "cosine" ? ", of a NoH that half holds" : "";
+        std::string given = o.form == "cosine" ? ", of a NoH that half holds" : "";
+        if (const auto* flushed = find(r, o.id, o.form, "half, flushed");
+            flushed && flushed->safe_from.value_or(1) > 2 * *row->safe_from)
+          given += ", if the processor keeps subnormals";
         to.say(fmt::format("{} in half stays within {} {}{}{}.", o.name, keeps,
                            *row->safe_from < 1e-5 ? std::string("for every alpha")
                                                   : fmt::format("from {} on", from_text(*row)),
@@ -179,8 +182,10 @@ void orders(Findings& to, const StabilityRows& r) {
     }
     if (all == 0) continue;
     const auto keeps = percent(stability::usual_tolerance(number), 1);
-    to.say(fmt::format("A compiler that regroups sums and products takes {}'s {} from {} forms.",
-                       name_of(number), keeps, of_all(need, all)));
+    to.say(fmt::format(
+        "A compiler that regroups sums and products takes {}'s {} from {} forms, over inputs on "
+        "which they keep it as written.",
+        name_of(number), keeps, of_all(need, all)));
     if (!worst) continue;
     to.say(worst->lost > 0 ? std::string("The worst of them even loses values.")
                            : fmt::format("The worst of them errs by {} in place of {}.",

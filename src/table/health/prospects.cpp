@@ -204,7 +204,7 @@ Prospect intervals(const Table& t) {
           : n >= 2 ? weakly
                    : no,
           fmt::format("{}; an error common to all values of one angle shows only with 8 angles or "
-                      "more, or with two for each free parameter",
+                      "more, and with at least two for each free parameter",
                       counted(n, "incident angle"))};
 }
 

@@ -169,12 +169,12 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   EXPECT_EQ(tails.take_id, "ndf.ggx");
   EXPECT_EQ(
       tails.error,
-      "typically ×/÷ 1.5 from published fits (the median; 17 of 20 materials have a longer tail by "
-      "their published exponent)");
-  EXPECT_EQ(without_aside(tails.error), "typically ×/÷ 1.5 from published fits");
+      "typically ×/÷ 1.5 off measured materials (the median of their published fits; 17 of 20 have "
+      "a longer tail)");
+  EXPECT_EQ(without_aside(tails.error), "typically ×/÷ 1.5 off measured materials");
   EXPECT_EQ(
       tails.unless,
-      "you fit γ, too (median 1.4 of those determined): then GTR with its own Smith, typically "
+      "you fit gamma, too (median 1.4 of those determined): then GTR with its own Smith, typically "
       "×/÷ 1.2, "
       "+0.80 ns");
   const auto& matte = about(all, "Diffuse of matte surfaces");
@@ -184,7 +184,7 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto& below = about(all, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.hammon") << "the only one that makes no light";
   EXPECT_EQ(below.error,
-            "ΔE ≤ 3.5; reflects at most 100.1\u00a0% of the light (Lambert: 191\u00a0%)");
+            "ΔE ≤ 3.5; reflects up to 100.1\u00a0% of the light (Lambert: 191\u00a0%)");
   const auto& light = about(all, "Image-based light");
   EXPECT_EQ(light.take, "Split sum, 32 × 32 table in half precision");
   EXPECT_EQ(light.error, "RMS 0.0008 of E");

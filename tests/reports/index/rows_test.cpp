@@ -188,7 +188,7 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "Disney's is nearer, and makes more light than any";
   EXPECT_EQ(below.error,
-            up_to(5.2) + "; reflects at most 140\u00a0% of the light (Lambert: 191\u00a0%)");
+            up_to(5.2) + "; reflects up to 140\u00a0% of the light (Lambert: 191\u00a0%)");
   EXPECT_EQ(below.unless,
             "you accept up to 220\u00a0% of reflected light: then Disney's diffuse, ΔE ≤ 1")
       << "the nearest of them, and what it gains";
@@ -209,15 +209,13 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   join(all, facts(timed({"ggx/smith_ggx.correlated/schlick", "gtr/smith_gtr.correlated/schlick"})));
   const auto row = of(decisions(all), "Distribution");
   EXPECT_EQ(row.error,
-            fmt::format("typically ×/÷ {:.3g} from published fits (the median; 17 "
-                        "of 20 materials have a longer tail by their published exponent)",
+            fmt::format("typically ×/÷ {:.3g} off measured materials (the median of their "
+                        "published fits; 17 of 20 have a longer tail)",
                         std::exp(0.395)));  // between the tenth and the eleventh
-  EXPECT_EQ(
-      row.unless,
-      fmt::format(
-          "you fit γ, too (median 1.5 of those determined): then GTR with its own Smith, typically "
-          "×/÷ {:.3g}, +0.10 ns",
-          std::exp(0.1475)))
+  EXPECT_EQ(row.unless, fmt::format("you fit gamma, too (median 1.5 of those determined): then GTR "
+                                    "with its own Smith, typically "
+                                    "×/÷ {:.3g}, +0.10 ns",
+                                    std::exp(0.1475)))
       << "the error and the time of one model";
   EXPECT_FALSE(facts(CrossFitRows{}).tails);
 }
@@ -235,7 +233,7 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   EXPECT_EQ(row.error,
             "≤ 2.2\u00a0% on metal, light and view up to 88° (F0 of 0.5 or more; a search found no "
             "larger error, which is no proof)");
-  EXPECT_EQ(row.cost, "all below roughness 0.2 is drawn as 0.2");
+  EXPECT_EQ(row.cost, "surfaces below roughness 0.2 look like 0.2");
   r.highlights[0].safe_from.reset();
   EXPECT_EQ(of(decisions(facts(r)), "Precision").take, "float instead");
 }
