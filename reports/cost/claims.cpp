@@ -32,14 +32,14 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
   if (!schlick || !joint || !plain) return;
   const bool more = schlick->time.ns > joint->time.ns;
   const auto words = [&](const CostRow& other) {
-    return is_tie(*schlick, other)            ? "as long, by what was measured, as"
+    return is_tie(*schlick, other)            ? "as long, as far as measured, as"
            : schlick->time.ns > other.time.ns ? "longer than"
                                               : "less than";
   };
   to.judge("Schlick's masking costs a bit more than the joint approximation", "",
            verdict(more && !is_tie(*schlick, *joint)),
            fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
-           fmt::format("in float columns in cache it takes {} the joint form with its "
+           fmt::format("in float, from cache, it takes {} the joint form with its "
                        "clamp. It takes {} the one without.",
                        words(*joint), words(*plain)));
 }

@@ -57,7 +57,7 @@ TEST(CostClaims, ADifferenceThatOneProcessDoesNotFindIsATie) {
   r.rows[0].each[2] = 0.215;
   EXPECT_EQ(judged(r).judged, fails);
   EXPECT_NE(
-      judged(r).verdict.find("as long, by what was measured, as the joint form with its clamp"),
+      judged(r).verdict.find("as long, as far as measured, as the joint form with its clamp"),
       std::string::npos);
 }
 
