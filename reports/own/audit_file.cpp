@@ -125,8 +125,9 @@ FunctionAudit audit_function(const FileFunction& of) {
     const bool is_slip =
         name.starts_with("No") || name == "VoH" || (width && known[*width].name == name);
     (is_slip ? a.slips : a.to_check)
-        .push_back(name + " changes nothing" +
-                   (is_slip ? ": a clamp holds it, as min does in the place of max" : ""));
+        .push_back(
+            name + " changes nothing" +
+            (is_slip ? ": it is not read, or a clamp holds it, as min in the place of max" : ""));
   }
   if (a.laws.fails_behind)
     a.to_check.emplace_back(

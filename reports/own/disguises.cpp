@@ -46,6 +46,16 @@ constexpr std::array all_half_vectors{
     HalfVector{sum, is_sum, false},
     HalfVector{sum_by_precedence, is_by_precedence},
     HalfVector{sum_by_precedence, is_by_precedence, false},
+    HalfVector{[](const Row& r) {
+                 const double lov = 2 * r.voh * r.voh - 1, length = std::sqrt(2 + 2 * r.nol);
+                 return std::array{length / 2, std::max(0.0, r.nov + lov) / length};
+               },
+               "its half vector is that of N and L: expected L + V"},
+    HalfVector{[](const Row& r) {
+                 const double length = std::sqrt(2 + 2 * r.nov);
+                 return std::array{length / 2, length / 2};
+               },
+               "its half vector is that of N and V: expected L + V"},
 };
 
 }  // namespace

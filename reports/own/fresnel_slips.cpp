@@ -49,6 +49,8 @@ constexpr std::array of_f0{
              "its Fresnel term has no power: (1 − VoH) stands where (1 − VoH)⁵ belongs"},
     SlipOfF0{[](double f, double c) { return schlick(f, c, 10); },
              "its Fresnel term has the power 10, Schlick's has 5"},
+    SlipOfF0{[](double f, double c) { return schlick(f, c * c); },
+             "its Fresnel term has VoH² where VoH belongs"},
     SlipOfF0{[](double f, double c) { return f + f * darkened(c); },
              "its Fresnel term is F0 + F0 (1 − VoH)⁵, expected F0 + (1 − F0) (1 − VoH)⁵"},
     SlipOfF0{[](double f, double c) { return f + darkened(c); },

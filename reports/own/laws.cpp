@@ -123,20 +123,27 @@ std::vector<std::string> without_effect(const foreign::Function& f,
           return differ(low, values(c, p, rows));
         }))
       names.emplace_back(parameters[k].name);
-  const auto look_at = [&](const char* name, double Row::*cosine, std::size_t index) {
-    if (std::ranges::none_of(f.programs,
-                             [&](const auto& p) { return foreign::reads(p, true, index); }))
-      return;
+  const auto changes = [&](double Row::*cosine) {
     auto other = rows;
     for (auto& r : other) r.*cosine *= 0.6;
-    if (is_same_always([&](std::size_t c, const Values& p) {
-          return differ(values(c, p, rows), values(c, p, other));
-        }))
-      names.emplace_back(name);
+    return !is_same_always([&](std::size_t c, const Values& p) {
+      return differ(values(c, p, rows), values(c, p, other));
+    });
   };
-  if (role == Role::masking) look_at("NoL", &Row::nol, 0), look_at("NoV", &Row::nov, 1);
-  if (role == Role::ndf && !f.reads_frame) look_at("NoH", &Row::noh, 2);
-  if (role == Role::fresnel) look_at("VoH", &Row::voh, 3);
+  const auto takes = [&](std::string_view cosine, std::string_view vector) {
+    return std::ranges::any_of(f.arguments, [&](const foreign::Argument& a) {
+      return a.stands_for == cosine || a.stands_for == vector;
+    });
+  };
+  if (role == Role::masking && takes("nol", "L") && takes("nov", "V")) {
+    const bool by_l = changes(&Row::nol), by_v = changes(&Row::nov);
+    if (by_v && !by_l) names.emplace_back("NoL");
+    if (by_l && !by_v) names.emplace_back("NoV");
+  }
+  if (role == Role::ndf && !f.reads_frame && takes("noh", "H") && !changes(&Row::noh))
+    names.emplace_back("NoH");
+  if (role == Role::fresnel && takes("voh", "voh") && !changes(&Row::voh))
+    names.emplace_back("VoH");
   return names;
 }
 

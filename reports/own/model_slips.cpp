@@ -21,7 +21,8 @@ std::vector<std::string> likely_slips(const NearestModel& n,
                                       bool guessed_pi) {
   std::vector<std::string> all;
   if (std::abs(n.factor - 1) > same_within) all.push_back(highlight_text(n.factor, guessed_pi));
-  if (!n.is_weight && !n.disguise.empty()) all.push_back(n.disguise);
+  const bool is_slip = !n.is_weight || n.colours.metallic;  // a metal's F0 is no weight
+  if (is_slip && !n.disguise.empty()) all.push_back(n.disguise);
   for (const auto& slip : {n.half_vector, n.form_slip, n.fresnel_slip, n.interface_slip})
     if (!slip.empty()) all.push_back(slip);
   const std::string name(width.name);
@@ -38,7 +39,7 @@ std::vector<std::string> likely_slips(const NearestModel& n,
 
 std::vector<std::string> to_check(const NearestModel& n, const Parameter& width) {
   auto all = to_check(width, n.power);
-  if (n.is_weight) all.push_back(n.disguise);
+  if (n.is_weight && !n.colours.metallic) all.push_back(n.disguise);
   if (auto k = k_of(n.masking); !k.empty()) all.push_back(std::move(k));
   if (n.drop && n.drop->is_little()) all.push_back(text_of(*n.drop));
   if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, width, n.power));

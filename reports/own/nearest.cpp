@@ -78,8 +78,25 @@ std::optional<Bite> bite_in(std::size_t term, const NearestForm& n, std::size_t 
   });
 }
 
-/// Where a guard holds masking down towards the horizon, takes it out of the values of G2.
-void take_guard(NearestForm& n,
+/// What V loses towards the horizon beside its form.
+std::optional<Drop> drop_over(const NearestForm& n,
+                              std::size_t term,
+                              const std::optional<HorizonGuard>& guard) {
+  Values p, q;
+  for (const auto& a : known_parameters(term)) p.push_back(usual_of(a));
+  for (const auto& a : catalogue()[n.term].parameters)
+    q.push_back(n.width && a.name == "alpha" ? alpha_of(usual_of(*n.width), n.power) : a.start);
+  return drop_of(
+      [&](const Row& r) {
+        const std::span one(&r, 1);
+        return values_in(Number::double_, term, p, one)[0] /
+               (n.factor * values_in(Number::double_, n.term, q, one)[0]);
+      },
+      guard);
+}
+
+/// Where a guard holds masking down towards the horizon, takes it out of the values of G2.  \return  whether there is one
+bool take_guard(NearestForm& n,
                 std::size_t term,
                 std::span<const Row> rows,
                 std::vector<Values>& f,
@@ -91,20 +108,11 @@ void take_guard(NearestForm& n,
   };
   const auto own = as_v(f), form = as_v(g);
   const auto guard = guard_of(rows, own, form);
-  if (!guard) return;
+  if (!guard) return false;
   for (std::size_t k = 0; k < f.size(); ++k)
     for (std::size_t i = 0; i < rows.size(); ++i) f[k][i] /= guard->left(rows[i], form[k][i]);
-  Values p, q;
-  for (const auto& a : known_parameters(term)) p.push_back(usual_of(a));
-  for (const auto& a : catalogue()[n.term].parameters)
-    q.push_back(n.width && a.name == "alpha" ? alpha_of(usual_of(*n.width), n.power) : a.start);
-  n.drop = drop_of(
-      [&](const Row& r) {
-        const std::span one(&r, 1);
-        return values_in(Number::double_, term, p, one)[0] /
-               values_in(Number::double_, n.term, q, one)[0];
-      },
-      guard);
+  n.drop = drop_over(n, term, guard);
+  return true;
 }
 
 /// Compares the file's function with one form, alpha being one power of its width.
@@ -135,12 +143,16 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     f.push_back(shown_in(Number::double_, term, p, rows));
     g.push_back(shown_in(Number::double_, form, q, rows));
   }
+  n.difference = std::numeric_limits<double>::infinity();
+  if (f.size() < 2) return n;
+  const std::size_t widest = pairing.width && narrows(power) ? 0 : f.size() - 1;
+  // Of a distribution a guard takes least of the widest peak.
+  const bool of_widest = own.role() == Role::ndf && pairing.width;
   std::vector<double> ratios;
   for (std::size_t k = 0; k < f.size(); ++k)
-    for (std::size_t i = 0; i < rows.size(); ++i)
+    for (std::size_t i = 0; i < rows.size() && (!of_widest || k == widest); ++i)
       if (const double r = f[k][i] / g[k][i]; std::isfinite(r) && r > 0) ratios.push_back(r);
-  n.difference = std::numeric_limits<double>::infinity();
-  if (ratios.empty() || f.size() < 2) return n;
+  if (ratios.empty()) return n;
   std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));
   const bool scales = own.role() == Role::ndf || own.role() == Role::diffuse;
   n.factor = scales || (own.role() == Role::masking && is_usual(ratios[ratios.size() / 2]))
@@ -151,7 +163,6 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     highest = std::max(highest, *std::ranges::max_element(f[k]));
     wanted = std::max(wanted, n.factor * *std::ranges::max_element(g[k]));
   }
-  const std::size_t widest = pairing.width && narrows(power) ? 0 : f.size() - 1;
   // A clamp is the largest value at the narrowest width, too; a guard makes that less.
   if (const double narrowest = *std::ranges::max_element(f[f.size() - 1 - widest]);
       own.role() == Role::ndf && highest < wanted * (1 - same_within) &&
@@ -167,7 +178,7 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     if (n.norms->high < n.norms->low * (1 + same_within)) n.norms.reset();
     n.cap.reset();
   }
-  if (own.role() == Role::masking) take_guard(n, term, rows, f, g);
+  const bool is_guarded = own.role() == Role::masking && take_guard(n, term, rows, f, g);
   n.difference = 0;
   double held_down = 0;  // the largest difference of what lies below the form
   std::size_t low_rows = 0;
@@ -179,20 +190,23 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
           f[k][i] >= *n.cap * (1 - 1e-9))
         continue;
       // Without a value is said elsewhere, where there is next to none.
-      if (!std::isfinite(f[k][i]) && g[k][i] < same_within * peak) continue;
+      if (!std::isfinite(f[k][i]) && (g[k][i] < same_within * peak || rows[i].noh == 0)) continue;
       const double off = (f[k][i] / n.factor - g[k][i]) / std::max(peak, 1e-300);
       const double d = std::isfinite(off) ? std::abs(off) : 1e9;
       if (own.role() == Role::ndf && off < -same_within) {
         held_down = std::max(held_down, d);
         ++low_rows;
-        widest_is_held = widest_is_held || k == widest;
+        constexpr double much = 0.02;  // a guard takes little of the widest
+        widest_is_held = widest_is_held || (k == widest && off < -much);
       } else {
         n.difference = std::max(n.difference, d);
       }
     }
   }
   // The form itself, where it is there, is nearer than another with a guard.
-  if (n.drop) n.difference = std::max(n.difference, 0.5 * same_within);
+  if (is_guarded) n.difference = std::max(n.difference, 0.5 * same_within);
+  if (own.role() == Role::masking && !n.drop && is_same(n) && own.parameters.size() <= 1)
+    n.drop = drop_over(n, term, {});
   // A guard holds narrow peaks down, and nothing else differs.
   if (low_rows > 0 &&
       !(pairing.width && is_same(n) && !widest_is_held && 2 * low_rows < f.size() * rows.size() &&
@@ -221,6 +235,7 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
     for (std::size_t k = 0; k < known.size(); ++k) widths.emplace_back(k);
   if (widths.empty()) widths.push_back(width_of(known));
   std::optional<NearestForm> best;
+  std::size_t best_map = 0;
   for (std::size_t form = 0; form < catalogue_size(); ++form) {
     const auto& entry = catalogue()[form];
     if (entry.role() != own.role() || entry.anisotropic != own.anisotropic || entry.coupled)
@@ -242,15 +257,23 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
         powers.assign(named.begin(), named.end());
         if (own.role() == Role::ndf) powers = every_power(w);
       }
-      for (const double power : powers) {
+      for (const double& power : powers) {
         const auto n = compared(term, form, pairing, power);
         if (!std::isfinite(n.difference)) continue;
-        // Forms may differ by rounding only, near a narrow peak by 1e-5: the first is taken, and
-        // the plainest map.
+        // A map that a width's name does not allow is no likeness: it is exact or nothing.
+        if (pairing.width && width_of(known) && !is_same(n) &&
+            std::ranges::find(powers_of(known[*pairing.width]), power) ==
+                powers_of(known[*pairing.width]).end())
+          continue;
+        // Forms may differ by rounding only, near a narrow peak by 1e-5: the plainest map is taken,
+        // and the first.
         constexpr double by_rounding = 1e-5;
-        if (!best ||
+        const auto map = static_cast<std::size_t>(&power - powers.data());
+        const bool is_plainer = best && is_same(*best) && map < best_map &&
+                                n.difference < best->difference + by_rounding;
+        if (!best || is_plainer ||
             n.difference < std::min(0.5 * best->difference, best->difference - by_rounding))
-          best = n;
+          best = n, best_map = map;
       }
     }
   }

@@ -85,10 +85,12 @@ class Search {
   std::optional<NearestModel> found() {
     for (const auto& d : disguises())
       for (const auto others : {Others::low, Others::usual}) {
+        if (half_.cosines && &d != disguises().data()) continue;  // one slip at a time
         take_white(d, others);
         if (d.is_weight && !scales_with_f0()) continue;
         if (auto n = of_highlight(Sought::right)) return n;
       }
+    if (half_.cosines) return {};
     for (const auto sought : {Sought::guarded, Sought::slips})
       for (const auto others : {Others::low, Others::usual}) {
         take_white(disguises()[0], others);
@@ -208,7 +210,8 @@ class Search {
             for (const auto& d : shapes)
               for (const auto& v : maskings) {
                 guard_.reset();
-                if (sought == Sought::guarded && !take_guard(d, v)) continue;
+                // What a guard takes of the widest is little, and all else is exact.
+                is_loose_ = sought == Sought::guarded && !take_guard(d, v);
                 if (const double factor = factor_of(d, v); factor > 0)
                   return described(d, of_d.power, v, of_v.power, factor);
               }
@@ -264,7 +267,8 @@ class Search {
     for (std::size_t k = 0; k < widths; ++k)
       for (std::size_t i = 0; i < rows_.size() && !is_guarded_[k]; ++i) {
         const double w = factor * wanted(k, i), off = white_[k][i] - w;
-        if (std::abs(off) <= same_within * std::abs(w) + least) continue;
+        constexpr double loose = 5e-3;
+        if (std::abs(off) <= (is_loose_ ? loose : same_within) * std::abs(w) + least) continue;
         if (k == 0 || !(off < 0)) return 0;
         ++held_down;
       }
@@ -304,7 +308,7 @@ class Search {
     n.drop = drop_of([&](const Row& r) { return left_at(widths_[0], r); }, guard_);
     n.masking = v.id();
     auto spec = model_of_lobe(d.id(), n.masking, "schlick");
-    if (const auto form = take_fresnel(n, over_form)) {
+    if (const auto form = take_fresnel(n, over_form, v.values[0])) {
       const std::string id(catalogue()[*form].id());
       spec.lobes[0].fresnel = id.substr(id.find('.') + 1);
     }
@@ -317,13 +321,17 @@ class Search {
   }
 
   /// Sets what is said of F, and returns the form of the catalogue that it is, if there is one.
-  std::optional<std::size_t> take_fresnel(NearestModel& n, const auto& over_form) const {
+  std::optional<std::size_t> take_fresnel(NearestModel& n,
+                                          const auto& over_form,
+                                          const Values& v_of_widest) const {
     if (!interface_.id.empty()) return find_term(interface_.id);
     const auto& colour = own_[colours_.f0[0]];
     const double f0 = low_of(colour) + 0.04 * (high_of(colour) - low_of(colour));
     auto f = over_form(highlight(f0, widths_[0], rows_), widths_[0], rows_);
     const bool is_of_f = disguise_->is_of_f;
     for (std::size_t i = 0; i < f.size() && !is_of_f; ++i) f[i] /= disguise_->factor(rows_[i]);
+    if (guard_)
+      for (std::size_t i = 0; i < f.size(); ++i) f[i] /= guard_->left(rows_[i], v_of_widest[i]);
     const auto taken = as_taken(rows_);
     const auto is = [&](auto value) {
       for (std::size_t i = 0; i < f.size(); ++i)
@@ -340,7 +348,8 @@ class Search {
       p[0] = f0;
       const auto values = values_in(Number::double_, form, p, taken);
       if (!is([&](std::size_t i) { return values[i]; })) continue;
-      if (e.id() == "fresnel.constant" && varies_of_a_dielectric(over_form))
+      if (e.id() == "fresnel.constant" && !disguise_->is_weight &&
+          varies_of_a_dielectric(over_form))
         n.fresnel_slip =
             "its metals have no Fresnel term: F0 is mixed in after it; expected F0 = "
             "mix(0.04, albedo, metallic) in its place";
@@ -401,6 +410,7 @@ class Search {
   Others others_ = Others::low;
   const Disguise* disguise_ = nullptr;
   ByWidth white_;
+  bool is_loose_ = false;
   std::size_t peak_ = 0;                      ///< row of the largest at the widest
   std::array<std::size_t, 2> cosine_ends_{};  ///< rows of the largest and of the least NoL NoV
   std::vector<bool> is_guarded_;              ///< the value there does not depend on the width

@@ -11,6 +11,8 @@
 #include "reports/own/nearest.h"
 #include "reports/own/parameters.h"
 
+#include <fmt/format.h>
+
 namespace gonio {
 namespace {
 
@@ -34,10 +36,19 @@ constexpr std::array of_distribution{
     SlipForm{
         [](double a, const Row& r) { return a * a / (pi * (r.noh * r.noh * (a * a - 1) + 1)); },
         "the denominator of GGX is not squared", "ggx"},
+    SlipForm{[](double a, const Row& r) {
+               const double d = r.noh * r.noh * (a * a - 1) + 1;
+               return a * a / pi * d * d;
+             },
+             "the square of GGX's denominator multiplies: it belongs below, in brackets", "ggx"},
     SlipForm{[](double a, const Row& r) { return ggx_of(a, r.noh * r.noh) / a; },
              "alpha stands above where alpha² belongs", "ggx"},
     SlipForm{[](double a, const Row& r) { return ggx_of(a, std::pow(r.noh, 4)); }, squared_twice,
              "ggx"},
+    SlipForm{[](double a, const Row& r) { return ggx_of(a, r.noh * r.noh) * r.noh * r.noh; },
+             "NoH² stands below where NoH⁴ belongs", "ggx"},
+    SlipForm{[](double a, const Row& r) { return ggx_of(a, r.noh * r.noh) * std::pow(r.noh, 4); },
+             "the division by NoH⁴ is missing", "ggx"},
     SlipForm{[](double a, const Row& r) { return ggx_of(a, r.noh); },
              "NoH stands where NoH² belongs", "ggx"},
     SlipForm{[](double a, const Row& r) {
@@ -127,10 +138,34 @@ double correlated(const Row& r, double of_l, double of_v) {
 double by_lambda(const Row& r, double of_l, double of_v) {
   return 1 / (1 + of_l + of_v) / (4 * r.nol * r.nov);
 }
-template <bool of_view>
-double smith_of_one(double a, const Row& r) {
-  return 2 / (1 + steep(a, of_view ? r.nov : r.nol)) / (4 * r.nol * r.nov);
+/// Right masking by one direction: Smith's for GGX, and Schlick's fit to it.
+double smith_of(double a, double c) {
+  return 2 / (1 + steep(a, c));
 }
+double schlick_of(double a, double c) {
+  return c / (c * (1 - a / 2) + a / 2);
+}
+template <auto g1, bool of_view, bool is_twice>
+double of_one_only(double a, const Row& r) {
+  const double g = g1(a, of_view ? r.nov : r.nol);
+  return (is_twice ? g * g : g) / (4 * r.nol * r.nov);
+}
+template <auto g1>
+constexpr std::array<SlipForm, 4> halves(const char* like) {
+  return {
+      SlipForm{of_one_only<g1, true, false>,
+               "its masking is that of the view only: G1 of the light is missing", like},
+      SlipForm{of_one_only<g1, false, false>,
+               "its masking is that of the light only: G1 of the view is missing", like},
+      SlipForm{of_one_only<g1, true, true>, "NoV stands in both factors of its masking", like},
+      SlipForm{of_one_only<g1, false, true>, "NoL stands in both factors of its masking", like}};
+}
+constexpr auto of_half = [] {
+  std::array<SlipForm, 8> all{};
+  const auto at = std::ranges::copy(halves<smith_of>("smith_ggx.separable"), all.begin()).out;
+  std::ranges::copy(halves<schlick_of>("schlick_ggx.half_alpha"), at);
+  return all;
+}();
 constexpr std::array of_pair{
     SlipForm{[](double a, const Row& r) {
                return correlated(r, std::sqrt(below(a, r.nov)), std::sqrt(below(a, r.nol)));
@@ -169,69 +204,104 @@ constexpr auto of_product = pairs_of_one(each_one);
 /// Of one direction k may be what the caller makes of alpha.
 constexpr auto but_for_k = std::make_index_sequence<of_one.size() - 1>{};
 constexpr auto of_view = ones<true>(but_for_k), of_light = ones<false>(but_for_k);
-constexpr auto of_masking = [] {
-  std::array<SlipForm, of_pair.size() + of_product.size() + 2> all{};
-  auto at = std::ranges::copy(of_pair, all.begin()).out;
-  at = std::ranges::copy(of_product, at).out;
-  *at++ = {smith_of_one<true>, "its masking is that of the view only: G1 of the light is missing",
-           "smith_ggx.separable"};
-  *at++ = {smith_of_one<false>, "its masking is that of the light only: G1 of the view is missing",
-           "smith_ggx.separable"};
-  return all;
-}();
-
-/// Masking without a width: V.
-struct OfNone {
-  double (*v)(const Row&);
-  const char* slip;
-};
-/// 2 NoH c/VoH of Cook and Torrance.
+/// 2 NoH c/VoH of Cook and Torrance, whose masking has no width.
 double groove(const Row& r, double c) {
   return 2 * r.noh * c / r.voh;
 }
 constexpr const char* max_for_min =
     "max stands where min belongs: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)";
 constexpr std::array of_none{
-    OfNone{[](const Row& r) { return 1 / (r.nol + r.nov - r.nol * r.nov); },
-           "4 times that of Neubelt: a 4 is missing below"},
-    OfNone{[](const Row& r) {
-             const double a = groove(r, r.nol), b = groove(r, r.nov);
-             return std::max(1.0, std::min(a, b)) / (4 * r.nol * r.nov);
-           },
-           max_for_min},
-    OfNone{[](const Row& r) {
-             const double a = groove(r, r.nol), b = groove(r, r.nov);
-             return std::min(1.0, std::max(a, b)) / (4 * r.nol * r.nov);
-           },
-           max_for_min},
-    OfNone{[](const Row& r) {
-             const double a = groove(r, r.nol), b = groove(r, r.nov);
-             return std::max({1.0, a, b}) / (4 * r.nol * r.nov);
-           },
-           max_for_min},
-    OfNone{[](const Row& r) {
-             return std::min(groove(r, r.nol), groove(r, r.nov)) / (4 * r.nol * r.nov);
-           },
-           "the 1 is missing: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)"},
-    OfNone{[](const Row& r) {
-             const double a = groove(r, r.nol), b = groove(r, r.nov);
-             return std::min({1.0, a / 2, b / 2}) / (4 * r.nol * r.nov);
-           },
-           "the 2 is missing: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)"},
-    OfNone{[](const Row& r) { return 0.25 / std::min(r.nol, r.nov); },
-           "min stands where max belongs: V = 1/(4 max(NoL, NoV))"},
+    SlipForm{[](double, const Row& r) { return 1 / (r.nol + r.nov - r.nol * r.nov); },
+             "4 times that of Neubelt: a 4 is missing below", "kelemen"},
+    SlipForm{[](double, const Row& r) {
+               const double a = groove(r, r.nol), b = groove(r, r.nov);
+               return std::max(1.0, std::min(a, b)) / (4 * r.nol * r.nov);
+             },
+             max_for_min, "cook_torrance"},
+    SlipForm{[](double, const Row& r) {
+               const double a = groove(r, r.nol), b = groove(r, r.nov);
+               return std::min(1.0, std::max(a, b)) / (4 * r.nol * r.nov);
+             },
+             max_for_min, "cook_torrance"},
+    SlipForm{[](double, const Row& r) {
+               const double a = groove(r, r.nol), b = groove(r, r.nov);
+               return std::max({1.0, a, b}) / (4 * r.nol * r.nov);
+             },
+             max_for_min, "cook_torrance"},
+    SlipForm{[](double, const Row& r) {
+               return std::min(groove(r, r.nol), groove(r, r.nov)) / (4 * r.nol * r.nov);
+             },
+             "the 1 is missing: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)", "cook_torrance"},
+    SlipForm{[](double, const Row& r) {
+               const double a = groove(r, r.nol), b = groove(r, r.nov);
+               return std::min({1.0, a / 2, b / 2}) / (4 * r.nol * r.nov);
+             },
+             "the 2 is missing: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)", "cook_torrance"},
+    SlipForm{[](double, const Row& r) { return 0.25 / std::min(r.nol, r.nov); },
+             "min stands where max belongs: V = 1/(4 max(NoL, NoV))", "neumann"},
 };
 
-/// True where values are a form's but for rounding; where the form has none, they may be anything.
+constexpr auto of_masking = [] {
+  std::array<SlipForm, of_pair.size() + of_product.size() + of_none.size() + of_half.size()> all{};
+  auto at = std::ranges::copy(of_pair, all.begin()).out;
+  at = std::ranges::copy(of_product, at).out;
+  at = std::ranges::copy(of_none, at).out;
+  std::ranges::copy(of_half, at);
+  return all;
+}();
+
+/// True where values are a form's but for rounding; where the form has none, they may be anything, and at the horizon they may have
+/// none.
 bool are(std::span<const double> values,
          std::span<const Row> rows,
          const std::function<double(const Row&)>& form) {
+  Values wanted;
+  double most = 0;
+  for (const auto& r : rows) {
+    wanted.push_back(form(r));
+    if (std::isfinite(wanted.back())) most = std::max(most, std::abs(wanted.back()));
+  }
+  constexpr double rounding = 1e-6;  // of 1 − NoH² beside sin² θ
   for (std::size_t i = 0; i < rows.size(); ++i) {
-    const double wanted = form(rows[i]);
-    if (std::isfinite(wanted) && !(std::abs(values[i] - wanted) <= same_within * std::abs(wanted)))
+    if (!std::isfinite(wanted[i]) || (rows[i].noh == 0 && !std::isfinite(values[i]))) continue;
+    if (!(std::abs(values[i] - wanted[i]) <= same_within * std::abs(wanted[i]) + rounding * most))
       return false;
   }
   return true;
+}
+
+/// G1 with a sum in its denominator: Smith's for GGX, and Schlick's of both k.
+constexpr std::array with_sum{
+    +[](double a, double c, double sum) { return 2 * c / (c + std::sqrt(below(a, c)) + sum); },
+    +[](double a, double c, double sum) { return c / (c * (1 - a / 2) + a / 2 + sum); },
+    +[](double a, double c, double sum) {
+      const double k = (std::sqrt(a) + 1) * (std::sqrt(a) + 1) / 8;
+      return c / (c * (1 - k) + k + sum);
+    }};
+
+/// "0.05 is added …", where values of V at widths are of two such factors.
+std::string sum_in_masking(std::span<const Row> rows,
+                           const std::vector<Values>& values,
+                           std::span<const double> alphas) {
+  const auto normal = static_cast<std::size_t>(
+      std::ranges::max_element(rows, {}, [](const Row& r) { return r.nol * r.nov; }) -
+      rows.begin());
+  const double g = values[0][normal] * 4 * rows[normal].nol * rows[normal].nov;
+  if (!(g > 0.2) || !(g < 1 - same_within)) return "";
+  for (const auto g1 : with_sum) {
+    const double sum = (1 / std::sqrt(g) - 1) / (1 - g1(alphas[0], 1, 1)) * g1(alphas[0], 1, 1);
+    std::size_t k = 0;
+    while (k < values.size() && are(values[k], rows, [&](const Row& r) {
+             return g1(alphas[k], r.nol, sum) * g1(alphas[k], r.nov, sum) / (4 * r.nol * r.nov);
+           }))
+      ++k;
+    if (k == values.size())
+      return fmt::format(
+          "{:.3g} is added to G1's denominator: masking takes {:.2g} % along the normal, where it "
+          "takes none",
+          sum, 100 * (1 - g));
+  }
+  return "";
 }
 
 std::string slip_of_two_widths(std::size_t term) {
@@ -240,10 +310,17 @@ std::string slip_of_two_widths(std::size_t term) {
   const Values p{usual_of(parameters[0]), 0.7 * high_of(parameters[1])};
   const auto v = values_in(Number::double_, term, p, rows);
   const auto root = [&](double x, double y, double z) { return std::hypot(p[0] * x, p[1] * y, z); };
-  const bool is_swapped = are(v, rows, [&](const Row& r) {
-    return 0.5 / (r.nol * root(r.xol, r.yol, r.nol) + r.nov * root(r.xov, r.yov, r.nov));
-  });
-  return is_swapped ? swapped_cosines : "";
+  const auto is = [&](auto of) {
+    return are(v, rows, [&](const Row& r) {
+      return of(r, root(r.xol, r.yol, r.nol), root(r.xov, r.yov, r.nov));
+    });
+  };
+  if (is([](const Row& r, double l, double v) { return 0.5 / (r.nol * l + r.nov * v); }))
+    return swapped_cosines;
+  if (is([](const Row& r, double l, double v) { return correlated(r, l * l, v * v); }) ||
+      is([](const Row& r, double l, double v) { return 1 / ((r.nol + l * l) * (r.nov + v * v)); }))
+    return no_root;
+  return "";
 }
 
 /// Of a Fresnel function with F0, or with eta, and maybe with the extinction k.
@@ -288,7 +365,7 @@ std::string slip_form(std::size_t term) {
   if (own.role() == Role::masking && own.parameters.empty()) {
     const auto v = values_in(Number::double_, term, {}, rows);
     for (const auto& s : of_none)
-      if (are(v, rows, s.v)) return s.slip;
+      if (are(v, rows, [&](const Row& r) { return s.value(0, r); })) return s.slip;
     return "";
   }
   const auto known = known_parameters(term);
@@ -317,6 +394,11 @@ std::string slip_form(std::size_t term) {
   };
   if (auto slip = named(slip_forms(own.role())); !slip.empty() || own.role() == Role::ndf)
     return slip;
+  for (const double power : powers_of(known[*width])) {
+    Values alphas;
+    for (const double w : widths) alphas.push_back(alpha_of(w, power));
+    if (auto slip = sum_in_masking(rows, values, alphas); !slip.empty()) return slip;
+  }
   const auto of_one_cosine = named(of_view);
   return of_one_cosine.empty() ? named(of_light) : of_one_cosine;
 }

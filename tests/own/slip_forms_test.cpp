@@ -75,6 +75,76 @@ TEST(SlipForms, ANormOverDirectionsIsNamed) {
              "normalised over the hemisphere");
 }
 
+/// The slips of a whole model with a highlight of such D and V, and F0.
+std::string whole_of(const std::string& d, const std::string& v, const std::string& half = "") {
+  auto text = model_of("float roughness 0.1 1 0.5, vec3 f0 0 1 0.04",
+                       "(f0 + (1.0 - f0) * p) * " + d + " * " + v);
+  if (!half.empty()) text = replaced(text, "normalize(L + V)", half);
+  return OwnSlips(text).slips;
+}
+constexpr const char* own_d = "D_GGX(NoH, roughness * roughness)";
+constexpr const char* own_v = "V_Smith(NoL, NoV, roughness * roughness)";
+
+TEST(SlipForms, ASlipOfDOrVIsNamedInAWholeModel) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_EQ(whole_of(own_d, own_v), "");
+  const std::string n = "(2.0 / pow(roughness, 4.0) - 2.0)";
+  EXPECT_EQ(whole_of("(" + n + " + 2.0) / (2.0 * PI) * pow(NoH, " + n + ")", own_v), "");
+  EXPECT_HAS(whole_of("(" + n + " + 1.0) / (2.0 * PI) * pow(NoH, " + n + ")", own_v),
+             "n + 1 stands above where n + 2 belongs");
+  const auto g1 = [](const std::string& c) {
+    return "(2.0 * " + c + " / (" + c + " + sqrt(pow(roughness, 4.0) * (1.0 - " + c + " * " + c +
+           ") + " + c + " * " + c + ")))";
+  };
+  const auto over = [](const std::string& g) { return g + " / (4.0 * NoL * NoV)"; };
+  EXPECT_EQ(whole_of(own_d, over(g1("NoL") + " * " + g1("NoV"))), "");
+  EXPECT_HAS(whole_of(own_d, over(g1("NoV"))), "that of the view only");
+  EXPECT_HAS(whole_of(own_d, over(g1("NoV") + " * " + g1("NoV"))), "NoV stands in both factors");
+  const auto grooves = [&](const std::string& clamp) {
+    return whole_of(own_d, over(clamp + "2.0 * NoH * NoV / VoH, 2.0 * NoH * NoL / VoH))"));
+  };
+  EXPECT_EQ(grooves("min(1.0, min("), "");
+  EXPECT_HAS(grooves("max(1.0, min("), "max stands where min belongs");
+  EXPECT_HAS(whole_of(own_d, own_v, "normalize(N + L)"), "its half vector is that of N and L");
+}
+
+TEST(SlipForms, ASumInTheDenominatorOfG1IsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto smith = [](const std::string& sum) {
+    const auto g1 = [&](const std::string& c) {
+      return "2.0 * " + c + " / (" + c + " + sqrt(a2 + (1.0 - a2) * " + c + " * " + c + ")" + sum +
+             ")";
+    };
+    return slips(masking("return " + g1("NoL") + " * " + g1("NoV") + " / (4.0 * NoL * NoV);"));
+  };
+  EXPECT_EQ(smith(""), "");
+  EXPECT_EQ(smith(" + 1e-6"), "");
+  EXPECT_HAS(smith(" + 0.05"), "0.05 is added to G1's denominator");
+}
+
+TEST(SlipForms, ADistributionsWidthMayHaveAnyNameAndMap) {
+  SKIP_WITHOUT_SHADERS;
+  const auto charlie = [](const std::string& parameter, const std::string& inverse) {
+    const auto name = parameter.substr(0, parameter.find(' '));
+    return audited("// " + parameter + "\nfloat D_term(float NoH, float " + name +
+                   ") {\n  return (2.0 + " + inverse + ") * pow(1.0 - NoH * NoH, 0.5 * " + inverse +
+                   ") / 6.28318530717959;\n}\n");
+  };
+  for (const auto& [parameter, inverse] :
+       {std::pair<std::string, std::string>{"roughness 0.1 1 0.5", "(1.0 / roughness)"},
+        {"softness 0 0.9 0.5", "(1.0 / (1.0 - softness))"},
+        {"fibres 1 10 2", "fibres"},
+        {"q 0.3 1 0.5", "(1.0 / (q * q))"}}) {
+    const auto a = charlie(parameter, inverse);
+    EXPECT_EQ(nearest(a), "ndf.charlie") << parameter;
+    EXPECT_EQ(slips(a), "") << parameter;
+  }
+  EXPECT_HAS(slips(charlie("sheenRoughness 0.07 1 0.5", "sheenRoughness")),
+             "its width is inverted");
+  EXPECT_HAS(slips(audited(ggx("float a2 = pow(1.0 - roughness, 4.0);", whole, "roughness"))),
+             "roughness is used as a smoothness");
+}
+
 TEST(SlipForms, ASquareRootThatIsMissingInSmithsMaskingIsNamed) {
   SKIP_WITHOUT_SHADERS;
   const std::string tan2 = "float tl = 1.0 / (NoL * NoL) - 1.0, tv = 1.0 / (NoV * NoV) - 1.0;\n  ";
@@ -120,7 +190,13 @@ TEST(SlipForms, AClampThatHoldsACosineIsNamed) {
       "return 0.5 / (NoV * sqrt(NoL * NoL * (1.0 - a2) + a2) + NoL * sqrt(NoV * NoV * (1.0 - a2) + "
       "a2));";
   EXPECT_EQ(slips(masking("NoV = max(NoV, 1e-4);\n  " + smith)), "");
-  EXPECT_HAS(slips(masking("NoV = min(NoV, 1e-4);\n  " + smith)), "NoV changes nothing: a clamp");
+  EXPECT_HAS(slips(masking("NoV = min(NoV, 1e-4);\n  " + smith)),
+             "NoV changes nothing: it is not read, or a clamp holds it");
+  EXPECT_EQ(slips(audited("// alpha 0.1 1 0.5\nfloat G1_GGX(float NoV, float alpha) { float a2 = "
+                          "alpha * alpha; return 2.0 * NoV / (NoV + sqrt(a2 + (1.0 - a2) * NoV * "
+                          "NoV)); }\n")),
+            "")
+      << "it takes one cosine";
   EXPECT_HAS(slips(masking("a2 = min(a2, 0.001);\n  " + smith)), "alpha changes nothing");
   const auto grooves = [](const std::string& g) {
     return slips(
