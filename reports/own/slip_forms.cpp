@@ -78,6 +78,13 @@ constexpr std::array of_distribution{
              },
              "alpha stands below where alpha² belongs", "beckmann"},
     SlipForm{[](double a, const Row& r) {
+               const double n = 2 / (a * a) - 2;
+               return (n + 1) / (2 * pi) * std::pow(r.noh, n);
+             },
+             "n + 1 stands above where n + 2 belongs: it is normalised over the hemisphere, not "
+             "projected",
+             "blinn_phong"},
+    SlipForm{[](double a, const Row& r) {
                const double t = std::sqrt(std::max(0.0, 1 / (r.noh * r.noh) - 1));
                return std::exp(-t / a) / (pi * a * a * std::pow(r.noh, 4));
              },
