@@ -18,13 +18,12 @@ namespace {
 struct TexelRun {
   using B = Lane<float>;
   const ForeignTerm& term;
+  std::uint64_t id;
   foreign::Interpreter<B> run;
   std::vector<B> parameters;
 
-  explicit TexelRun(std::size_t slot)
-      : term(*foreign_term(catalogue_size() + slot)),
-        run(term.derivatives, 64),
-        parameters(term.value_count) {}
+  explicit TexelRun(const ForeignTerm& t)
+      : term(t), id(t.id), run(t.derivatives, 64), parameters(t.value_count) {}
 
   void operator()(const Block<float>& x, const float* p, float* value, float* const* d) {
     using Way = TexelsAsLanes<false>;
@@ -50,7 +49,8 @@ struct TexelRun {
 template <std::size_t slot>
 void of_file(const Block<float>& x, const float* p, float* value, float* const* d) {
   thread_local std::unique_ptr<TexelRun> run;
-  if (!run) run = std::make_unique<TexelRun>(slot);
+  const auto& term = *foreign_term(catalogue_size() + slot);
+  if (!run || run->id != term.id) run = std::make_unique<TexelRun>(term);
   (*run)(x, p, value, d);
 }
 

@@ -116,6 +116,7 @@ FunctionAudit audit_function(const FileFunction& of) {
   if (!is_audited(f)) return a;
   const auto token = foreign::text_of(f.name);
   const std::size_t term = foreign_term_named(token);
+  const auto hold = hold_foreign(term);
   const Role role = catalogue()[term].role();
   a.laws = laws_of(f, term);
   a.operations_in_one = operations_in_one(term);

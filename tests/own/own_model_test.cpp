@@ -19,6 +19,8 @@
 #include "stability/answer.h"
 #include "support.h"
 
+#include <fmt/format.h>
+
 namespace gonio {
 namespace {
 
@@ -333,6 +335,41 @@ TEST(OwnModel, AWholeModelIsNoDistribution) {
   EXPECT_HAS(
       refusal([] { bind_model(file() + ":brdf/smith_ggx.correlated/schlick", {}); }, Exit::usage),
       "one number");
+}
+
+/// A program that runs for days, as one in Python may, sees any number of functions.
+TEST(OwnModel, AnyNumberOfFunctionsMayBeNamedOneAfterAnother) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  std::string text = "// kd 0 1 0.5\n";
+  for (std::size_t k = 0; k < 4 * most_foreign_terms; ++k)
+    text += fmt::format(
+        "float f{0}(float NoL, float NoV, float kd) {{ return kd * {0}.0 + 0.0 * NoL * NoV; }}\n",
+        k);
+  const auto path = folder.write("many.glsl", text);
+  const auto value_of = [](const BoundModel& m) { return evaluate(m, drawn(1))[0][0]; };
+  const std::vector<std::string> half{"kd=0.5"};
+  const auto bound = [&](std::size_t k) {
+    return bind_model(fmt::format("{}:f{}{{includes=nothing}}", path, k), parse_settings(half), 1);
+  };
+  const auto held = bound(1);
+  std::vector<double> values;
+  for (std::size_t k = 2; k < most_foreign_terms + 20; ++k) values.push_back(value_of(bound(k)));
+  for (std::size_t k = 0; k < values.size(); ++k)
+    EXPECT_EQ(values[k], 0.5 * static_cast<double>(k + 2))
+        << "another function stands in its place";
+  EXPECT_EQ(value_of(held), 0.5) << "a model keeps its functions";
+  EXPECT_EQ(value_of(bound(2)), 1) << "it is read again";
+  // Those that are held at one time have an end.
+  std::vector<BoundModel> all;
+  EXPECT_HAS(refusal(
+                 [&] {
+                   for (std::size_t k = 200; k < 200 + most_foreign_terms; ++k)
+                     all.push_back(bound(k));
+                 },
+                 Exit::usage),
+             "functions of files are in use at once");
+  EXPECT_EQ(value_of(all.back()), 0.5 * static_cast<double>(200 + all.size() - 1));
 }
 
 }  // namespace

@@ -1,6 +1,7 @@
 #include "brdf/catalogue/foreign_terms.h"
 
 #include <algorithm>
+#include <array>
 #include <deque>
 #include <limits>
 #include <memory>
@@ -23,8 +24,11 @@ struct Kept {
   std::string id, title, formula, source;
   About about;
   std::vector<Parameter> parameters;
-  std::size_t first = 0;  ///< its first term
-  bool is_said = false;   ///< what was guessed of it
+  std::size_t first = 0;    ///< its first term
+  bool is_said = false;     ///< what was guessed of it
+  std::uint64_t named = 0;  ///< when last
+  std::shared_ptr<const void>
+      hold{};  ///< none: it has given its place away, and its names are left
 };
 
 std::mutex foreign_mutex;
@@ -32,9 +36,43 @@ std::deque<Kept>& kept() {
   static std::deque<Kept> all;
   return all;
 }
-std::deque<ForeignTerm>& terms() {
-  static std::deque<ForeignTerm> all;
+std::array<ForeignTerm, most_foreign_terms>& terms() {
+  static std::array<ForeignTerm, most_foreign_terms> all{};
   return all;
+}
+std::uint64_t next_id() {
+  static std::uint64_t last = 0;
+  return ++last;
+}
+
+/// The function whose place this is; nullptr of none.
+Kept* owner_of(std::size_t place) {
+  const auto of = std::ranges::find_if(kept(), [&](const Kept& k) {
+    const std::size_t first = k.first - catalogue_size();
+    return k.hold && first <= place && place < first + k.function.programs.size();
+  });
+  return of == kept().end() ? nullptr : &*of;
+}
+/// The first of so many places in a row that are free.
+std::optional<std::size_t> free_places(std::size_t count) {
+  std::size_t free = 0;
+  for (std::size_t place = 0; place < most_foreign_terms; ++place) {
+    free = owner_of(place) ? 0 : free + 1;
+    if (free == count) return place + 1 - count;
+  }
+  return {};
+}
+/// Frees the places of the function that was named longest ago and is not held.  \return  whether there is one
+bool release_one() {
+  Kept* oldest = nullptr;
+  for (auto& k : kept())
+    if (k.hold && k.hold.use_count() == 1 && (!oldest || k.named < oldest->named)) oldest = &k;
+  if (!oldest) return false;
+  for (std::size_t c = 0; c < oldest->function.programs.size(); ++c)
+    terms()[oldest->first - catalogue_size() + c] = {};
+  oldest->function.programs.clear();
+  oldest->hold.reset();
+  return true;
 }
 
 Role role_standing(foreign::Stands s) {
@@ -98,6 +136,13 @@ const ForeignTerm* foreign_term(std::size_t term) {
   return term < catalogue_size() ? nullptr : &terms()[term - catalogue_size()];
 }
 
+std::shared_ptr<const void> hold_foreign(std::size_t term) {
+  if (term < catalogue_size()) return nullptr;
+  const std::lock_guard lock(foreign_mutex);
+  const auto* owner = owner_of(term - catalogue_size());
+  return owner ? owner->hold : nullptr;
+}
+
 std::size_t term_of_channel(std::size_t term, std::size_t channel) {
   const auto* f = foreign_term(term);
   return f && f->function->programs.size() == 3 ? term + channel % 3 : term;
@@ -137,8 +182,11 @@ std::size_t foreign_term_named(std::string_view name, std::optional<Role> role) 
       break;
     }
   const std::lock_guard lock(foreign_mutex);
-  for (const auto& k : kept())
-    if (k.token == name && (!role || *role == k.role)) return k.first;
+  for (auto& k : kept())
+    if (k.hold && k.token == name && (!role || *role == k.role)) {
+      k.named = next_id();
+      return k.first;
+    }
   std::optional<foreign::Stands> stands;
   if (role) stands = stands_of(*role);
   Kept k{std::string(name),
@@ -167,11 +215,15 @@ std::size_t foreign_term_named(std::string_view name, std::optional<Role> role) 
   if (is_colour && (k.role == Role::ndf || k.role == Role::masking))
     throw wrong_usage(fmt::format("{} gives a colour, where a {} gives one number", name,
                                   k.role == Role::ndf ? "distribution" : "masking term"));
-  if (terms().size() + k.function.programs.size() > most_foreign_terms)
-    throw wrong_usage(
-        fmt::format("{}: more than {} functions of files in one run", name, most_foreign_terms));
+  auto place = free_places(k.function.programs.size());
+  while (!place && release_one()) place = free_places(k.function.programs.size());
+  if (!place)
+    throw wrong_usage(fmt::format("{}: more than {} functions of files are in use at once", name,
+                                  most_foreign_terms));
   describe(k);
-  k.first = catalogue_size() + terms().size();
+  k.first = catalogue_size() + *place;
+  k.named = next_id();
+  k.hold = std::make_shared<int>();
   auto& owned = kept().emplace_back(std::move(k));
   // The strings moved: what points to them is made again.
   owned.about = {
@@ -180,10 +232,14 @@ std::size_t foreign_term_named(std::string_view name, std::optional<Role> role) 
     owned.parameters[i].name = owned.function.parameters[i].name;
   const auto& f = owned.function;
   for (std::size_t c = 0; c < f.programs.size(); ++c) {
-    terms().push_back({&f, c,
-                       foreign::with_derivatives(f.programs[c], f.parameters.size(), f.anisotropic),
-                       c == 0 ? all_channels(f) : foreign::Program(), f.parameters.size()});
-    append_term({&owned.about, owned.parameters, false, f.anisotropic, true, false});
+    terms()[*place + c] = {
+        &f,
+        c,
+        foreign::with_derivatives(f.programs[c], f.parameters.size(), f.anisotropic),
+        c == 0 ? all_channels(f) : foreign::Program(),
+        f.parameters.size(),
+        next_id()};
+    set_term(owned.first + c, {&owned.about, owned.parameters, false, f.anisotropic, true, false});
   }
   return owned.first;
 }

@@ -66,10 +66,10 @@ std::size_t catalogue_size() {
   return own_entries.size();
 }
 
-void append_term(const TermEntry& entry) {
+void set_term(std::size_t term, const TermEntry& entry) {
   auto& e = entries();
-  e.all.at(e.count) = entry;
-  ++e.count;
+  e.all.at(term) = entry;
+  e.count = std::max(e.count.load(), term + 1);
 }
 
 std::span<const MapEntry> maps() {

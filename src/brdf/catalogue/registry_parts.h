@@ -6,7 +6,7 @@
 
 namespace gonio {
 
-/// Appends to catalogue(); spans of it that were given out stay as they are.
-void append_term(const TermEntry&);
+/// Sets an entry behind the catalogue's own; spans of catalogue() that were given out stay as they are.
+void set_term(std::size_t term, const TermEntry&);
 
 }  // namespace gonio

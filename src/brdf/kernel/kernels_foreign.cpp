@@ -29,7 +29,8 @@ class ForeignRun {
       : run_(p, foreign_block / lanes<B>),
         is_turned_(t.function->anisotropic),
         reads_frame_(t.function->reads_frame),
-        values_(most) {}
+        values_(most),
+        id(t.id) {}
 
   void set(const F* p, std::size_t count) {
     if (is_set_ && std::memcmp(last_.data(), p, count * sizeof(F)) == 0) return;
@@ -79,6 +80,9 @@ class ForeignRun {
   bool is_turned_, reads_frame_, is_set_ = false;
   std::vector<B> values_;
   std::vector<F> last_;
+
+ public:
+  const std::uint64_t id;  ///< of the term
 };
 
 enum class ForeignKind { value, channels, derivatives };
@@ -88,8 +92,8 @@ template <class F, ForeignKind kind>
 ForeignRun<F>& foreign_run(std::size_t slot) {
   thread_local std::array<std::unique_ptr<ForeignRun<F>>, most_foreign_terms> runs;
   auto& r = runs[slot];
-  if (!r) {
-    const ForeignTerm& t = *foreign_term(catalogue_size() + slot);
+  const ForeignTerm& t = *foreign_term(catalogue_size() + slot);
+  if (!r || r->id != t.id) {
     const auto& p = kind == ForeignKind::value      ? t.program()
                     : kind == ForeignKind::channels ? t.channels
                                                     : t.derivatives;

@@ -181,7 +181,9 @@ Model compose(const ModelSpec& spec, std::size_t channels, std::span<const std::
     throw wrong_usage(
         fmt::format("model '{}': a coat is for scenes and choices only", to_text(spec)));
   const auto term = [&](const std::string& name, Role role) {
-    return use(m, find_term(name, role), m.lobes.size(), grey);
+    const std::size_t found = find_term(name, role);
+    if (auto hold = hold_foreign(found)) m.held.push_back(std::move(hold));
+    return use(m, found, m.lobes.size(), grey);
   };
   if (!spec.diffuse.empty()) m.diffuse.push_back(term(spec.diffuse, Role::diffuse));
   for (const auto& l : spec.lobes) {

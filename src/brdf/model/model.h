@@ -5,6 +5,7 @@
 ///   f_c = Σ_l D_l V_l F_{l,c} + Σ diffuse_c + Σ coupled_c (1 − F_{1,c})          [1/sr]
 
 #include <cstddef>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -44,7 +45,8 @@ struct Model {
   std::vector<Lobe> lobes;
   std::vector<ModelParameter> parameters;
   std::size_t value_count = 0;
-  bool anisotropic = false;  ///< a term of it reads the tangent frame
+  bool anisotropic = false;                         ///< a term of it reads the tangent frame
+  std::vector<std::shared_ptr<const void>> held{};  ///< its functions of files
 
   /// nullptr if it has none of that name
   const ModelParameter* find(std::string_view name) const;

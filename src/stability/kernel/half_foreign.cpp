@@ -19,9 +19,12 @@ void half_values_of(std::size_t slot, const Block<float>& x, const float* p, flo
   using R = Lane<float>;
   using T = HalfOver<R, rules>;
   const ForeignTerm& t = *foreign_term(catalogue_size() + slot);
-  thread_local std::array<std::unique_ptr<foreign::Interpreter<T>>, most_foreign_terms> runs;
-  auto& run = runs[slot];
-  if (!run) run = std::make_unique<foreign::Interpreter<T>>(t.program(), 512 / lanes<R>);
+  thread_local std::array<std::pair<std::uint64_t, std::unique_ptr<foreign::Interpreter<T>>>,
+                          most_foreign_terms>
+      runs;
+  auto& [id, run] = runs[slot];
+  if (id != t.id) run = std::make_unique<foreign::Interpreter<T>>(t.program(), 512 / lanes<R>);
+  id = t.id;
   std::vector<T> parameters;
   for (std::size_t k = 0; k < t.value_count; ++k) parameters.push_back(T(R(p[k])));
   run->set(parameters);
