@@ -143,6 +143,22 @@ TEST(StackCommand, TakesPhotographsInTiffWithNumbersFromZeroToOne) {
 }
 #endif
 
+TEST(FitMapCommand, TakesTheModelThatPredictsUnseenImagesBest) {
+  const Folder f;
+  make_stack(f);
+  const std::string right = "lambert+ggx/smith_ggx.correlated/schlick",
+                    words = "fit_map s/stack.json --models lambert," + right + " -o maps.exr";
+  const auto o = gonio(f, words);
+  ASSERT_EQ(o.code, 0) << o.err;
+  EXPECT_NE(o.out.find("model   " + right + "\nchosen  lambert leaves "), o.out.npos) << o.out;
+  const auto j = gonio(f, words + " --json").json();
+  EXPECT_EQ(j["model"], right);
+  ASSERT_EQ(j["models"].size(), 2U);
+  EXPECT_EQ(j["models"][0]["model"], right);
+  EXPECT_GT(j["models"][1]["unseen_rms"], 1.5 * j["models"][0]["unseen_rms"].get<double>());
+  expect_one_line(gonio(f, "fit_map s/stack.json --models lambert,lambXrt -o m.exr"), 2, "lambXrt");
+}
+
 /// The stack with the azimuths of all lights negated.
 void negate_lights(const Folder& f) {
   auto j = nlohmann::ordered_json::parse(read_bytes(f / "s/stack.json"));
@@ -289,7 +305,8 @@ TEST(FitMapCommand, RefusesBadInputInOneLine) {
       f, 3,
       {{"fit_map cut.json -o m.exr", "cut.json"},
        {"fit_map below.json -o m.exr", "below.json: /images/0/theta_i: found 95"},
-       {"fit_map none.json -o m.exr", "expected one of theta_i, light or light_map"},
+       {"fit_map none.json -o m.exr",
+        "expected one of theta_i, light, light_map or light_position"},
        {"fit_map gone.json -o m.exr", "a: opening"},
        {"fit_map s/sizes.json -o m.exr", "small.exr: size: found 3 × 3, expected 20 × 12"},
        {"fit_map nothing.json -o m.exr", "nothing.json"},
