@@ -30,6 +30,7 @@
 #include "fitting/solve/problem.h"
 #include "fitting/solve/search.h"
 #include "table/format/measured_by.h"
+#include "table/health/lost_values.h"
 #include "table/health/value_warnings.h"
 
 #include <fmt/format.h>

@@ -11,7 +11,7 @@
 #include "fitting/judge/regression.h"
 #include "fitting/judge/warnings.h"
 #include "number/distributions.h"
-#include "table/health/value_warnings.h"
+#include "table/health/lost_values.h"
 
 namespace gonio {
 namespace {

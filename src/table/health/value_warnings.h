@@ -19,10 +19,6 @@ struct ValueWarning {
 };
 std::vector<ValueWarning> value_warnings(TableFacts&);
 
-/// Size of noise or digits below which the table lost values [1/sr]: the noise floor that negative values betray, or, where
-/// more than 2 % of the values are 0, what those beside them typically are.  Else 0.
-double lost_below(TableFacts&);
-
 /// True of a reader's warning that a model answers which reproduces the table: of light that comes back the way it came.
 inline bool is_answered_by_a_fit(const std::string& warning) {
   return warning.find("azimuths are counted otherwise") != warning.npos;

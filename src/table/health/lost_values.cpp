@@ -1,0 +1,216 @@
+#include "table/health/lost_values.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "base/few.h"
+#include "base/quantile.h"
+#include "table/format/measured_by.h"
+#include "table/health/fills.h"
+#include "table/health/rounding.h"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
+namespace gonio {
+namespace {
+
+constexpr double digits_of_one = 20;  ///< standard deviations of rounding in six steps
+
+/// True where rounding to 0 or to one digit shifts many values.  A table all of whose values are short numbers may have been
+/// written so, but for zeros.
+bool is_coarse(std::size_t zeros, std::size_t coarse, std::size_t values) {
+  const auto many = [&](std::size_t n, double part) {
+    return static_cast<double>(n) > part * static_cast<double>(values);
+  };
+  return many(zeros + coarse, 0.05) && (many(zeros, 0.02) || !many(zeros + coarse, 0.95));
+}
+
+/// Number of values at the end of a range, where many share the last one, as they share no other near it.
+/// \param values  of a channel or of several with one end, sorted from that end on
+/// \param is_near  whether a value is near the last one
+template <class Near>
+std::size_t shared_end(const std::vector<double>& values, const Near& is_near) {
+  std::size_t run = 0, last = 0, longest = 0;  // of equal values: this, at the end, and elsewhere
+  for (std::size_t k = 0; k < values.size() && is_near(values[k]); ++k) {
+    run = k > 0 && values[k] == values[k - 1] ? run + 1 : 1;
+    (values[k] == values[0] ? last : longest) =
+        std::max(values[k] == values[0] ? last : longest, run);
+  }
+  constexpr std::size_t few = 8, others = 4;
+  return last < few || longest == 0 || last < others * longest || 500 * last < values.size() ? 0
+                                                                                             : last;
+}
+
+/// Last value that many samples share, of a channel or of several that end there.
+struct SharedEnd {
+  double value;
+  std::size_t sharers, values;
+  std::vector<std::string> channels;
+};
+std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
+  const SampleAngles at(t);
+  const std::size_t step = t.size() / 60'000 + 1;
+  std::map<double, std::pair<std::vector<double>, std::vector<std::string>>> with_end;
+  for (std::size_t c = 0; c < t.values.size(); ++c) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < t.size(); i += step)
+      if (const double v = t.values[c][i]; v > 0 && mask(at(i), v) == Mask::valid)
+        values.push_back(v);
+    if (values.empty()) continue;
+    const auto [low, high] = std::ranges::minmax(values);
+    auto& [together, channels] = with_end[greatest ? high : low];
+    together.insert(together.end(), values.begin(), values.end());
+    channels.push_back(t.channels[c]);
+  }
+  std::vector<SharedEnd> all;
+  for (auto& [end, found] : with_end) {
+    auto& [values, channels] = found;
+    std::ranges::sort(values);
+    if (greatest) std::ranges::reverse(values);
+    const auto is_near = [&, last = end](double v) {
+      return greatest ? v > last / 2 : v < 2 * last;
+    };
+    if (const std::size_t n = shared_end(values, is_near))
+      all.push_back({end, n, values.size(), std::move(channels)});
+  }
+  return all;
+}
+
+/// Name of a channel's values in a mask.
+std::string in_mask(const std::string& channel) {
+  return channel == "f" ? channel : "f_" + channel;
+}
+
+void warn_of_fill(const Table& t, const Fill& fill, std::vector<std::string>& all) {
+  std::vector<std::string> channels, conditions;
+  for (const std::size_t c : fill.channels) {
+    channels.push_back(t.channels[c]);
+    conditions.push_back(
+        fmt::format("{0} >= {1} and {0} <= {1}", in_mask(t.channels[c]), fill.value));
+  }
+  all.push_back(
+      fmt::format("{} of {} values of channel {} are {}, unlike those beside them: a mark for "
+                  "missing data? (--mask '{}' leaves {} out)",
+                  fill.sharers, fill.values, few_of(channels), fill.value, conditions[0],
+                  conditions.size() > 1 ? "their samples" : "them"));
+}
+
+}  // namespace
+
+void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
+  // Numbers that somebody typed may be as short.
+  constexpr std::size_t most_by_hand = 50, few_values = 8;
+  constexpr double small_loss = 0.015;  // standard deviation
+  const Table& t = facts.table();
+  const SampleAngles at(t);
+  const FileRounding rounding = rounding_of(t);
+  const double one_digit = digits_of_one * rounding.absolute;
+  std::size_t zeros = 0, coarse = 0, values = 0, negative = 0;
+  std::vector<double> lost;  // by rounding, of each value
+  std::set<double> different;
+  const std::size_t step = t.size() / 60'000 + 1;
+  for (const auto& plane : t.values) {
+    std::size_t none = 0, some = 0;
+    for (std::size_t i = 0; i < t.size(); i += step) {
+      const Mask m = plane[i] <= 0 ? mask(at(i), plane[i]) : Mask::valid;
+      none += m == Mask::valid && plane[i] == 0;
+      negative += m == Mask::negative;
+      some += plane[i] > 0;
+      coarse += plane[i] > 0 && plane[i] < one_digit;
+      if (!(plane[i] > 0) || mask(at(i), plane[i]) != Mask::valid) continue;
+      lost.push_back(rounding.of(plane[i]) / plane[i]);
+      if (different.size() < few_values) different.insert(plane[i]);
+    }
+    if (some == 0) continue;  // of a channel of zeros something else is said
+    zeros += none;
+    values += none + some;
+  }
+  const auto many = [&](std::size_t n, double part) {
+    return static_cast<double>(n) > part * static_cast<double>(values);
+  };
+  if (rounding.absolute > 0 && is_coarse(zeros, coarse, values))
+    all.push_back(fmt::format(
+        "{} of {} values are rounded to one digit or to 0: dark places get upper limits",
+        zeros + coarse, values));
+  else if (negative == 0 && many(zeros, 0.005))
+    all.push_back(
+        fmt::format("{} of {} values are 0, clipped noise or shadow: logarithms leave them out "
+                    "(--metric l2_cosine counts them)",
+                    zeros, values));
+  else if (const double typical = lost.empty() ? 0 : median(lost);
+           lost.size() >= most_by_hand && different.size() == few_values && typical > small_loss)
+    all.push_back(fmt::format(
+        "values are rounded to {}, typically {:.2g} % of a value: parameters may be off by more "
+        "than their intervals",
+        rounding.digits > 0
+            ? fmt::format("{} significant digit{}", rounding.digits, rounding.digits > 1 ? "s" : "")
+            : fmt::format("steps of {:.3g} 1/sr", rounding.absolute * std::sqrt(12)),
+        100 * typical));
+}
+
+void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
+  const auto found = [](const SharedEnd& e) {
+    return fmt::format("{} of {} values of channel {} are {}", e.sharers, e.values,
+                       few_of(e.channels), e.value);
+  };
+  const Table& t = facts.table();
+  const auto full = shared_ends(t, true);
+  if (!full.empty()) {
+    std::vector<std::string> conditions;
+    for (const auto& e : full)
+      for (const auto& channel : e.channels)
+        conditions.push_back(fmt::format("{} >= {}", in_mask(channel), e.value));
+    const bool few = conditions.size() <= most_listed;
+    all.push_back(fmt::format(
+        "{}, and none is more: a full detector? (--mask {} {})", found(full[0]),
+        few ? fmt::format("'{}'", fmt::join(conditions, " or ")) : few_of(conditions, " or "),
+        few ? "leaves them out" : "leave them out"));
+  }
+  for (const auto& e : shared_ends(t, false)) {
+    // A computed base is shared, too; clipped noise goes on above.
+    std::vector<double> above;
+    for (const auto& d : facts.noise_samples().all)
+      if (const double v = t.values[d.channel][d.sample]; v > e.value && v < 10 * e.value)
+        above.push_back(std::abs(d.more));
+    constexpr std::size_t few = 8;
+    constexpr double noisy = 0.1;
+    if (above.size() < few || !(median(above) > noisy)) continue;
+    all.push_back(found(e) +
+                  ", and none is less: clipped noise? (--metric l2_cosine minds it less)");
+    return;
+  }
+  if (full.empty())
+    if (const auto fill = fill_of(t)) warn_of_fill(t, *fill, all);
+}
+
+double lost_below(TableFacts& facts) {
+  const Table& t = facts.table();
+  constexpr double many = 0.02;       // of the values
+  constexpr double of_half = 1.4826;  // the standard deviation of noise, of its typical size
+  if (facts.noise_floor() > 0) return facts.noise_floor();
+  const SampleAngles at(t);
+  const double rounding = rounding_of(t).absolute;
+  std::size_t zeros = 0, coarse = 0, values = 0;
+  const std::size_t step = t.size() / 60'000 + 1;
+  std::vector<double> beside;
+  for (const auto& plane : t.values) {
+    if (std::ranges::none_of(plane, [](double v) { return v > 0; })) continue;
+    for (std::size_t i = 0; i < t.size(); i += step) {
+      values += plane[i] >= 0;
+      coarse += plane[i] > 0 && plane[i] < digits_of_one * rounding;
+      if (plane[i] != 0 || mask(at(i), 0) != Mask::valid) continue;
+      ++zeros;
+      for (const std::size_t k : {i - 1, i + 1})
+        if (k < t.size() && plane[k] > 0) beside.push_back(plane[k]);
+    }
+  }
+  if (rounding > 0 && is_coarse(zeros, coarse, values)) return std::sqrt(12) * rounding / 2;
+  if (!(static_cast<double>(zeros) > many * static_cast<double>(values)) || beside.empty())
+    return 0;
+  return of_half * median(beside);
+}
+
+}  // namespace gonio
