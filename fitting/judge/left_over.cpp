@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "base/quantile.h"
@@ -179,8 +180,8 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
               unit = all.units.size();
               const Angles<double> a{x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]};
               const std::size_t sample = in.sample(m)[i];
-              all.units.push_back(
-                  {functions(a), cell_of(a), numbers_of(sample, in.nol(m)[i]), s.count_of(sample)});
+              all.units.push_back({functions(a), cell_of(a), numbers_of(sample, in.nol(m)[i]),
+                                   s.count_of(sample), x.nov[i]});
               all.directions += all.units.back().count;
             }
             auto& v = all.values.emplace_back();
@@ -216,6 +217,42 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
   return all;
 }
 
+namespace {
+
+/// Residuals less their regression, by parts of f, on the smooth functions of the angles: these take up what a wrong model leaves, and
+/// little noise [modified Gram–Schmidt].
+std::vector<double> without_smooth(const Left& left) {
+  const auto part = [&](std::size_t i) { return left.values[i].slope * left.values[i].f; };
+  std::vector<double> rest(left.values.size());
+  for (std::size_t i = 0; i < rest.size(); ++i)
+    rest[i] = part(i) > 0 ? left.values[i].whole / part(i) : 0;
+  std::vector<std::vector<double>> all;
+  for (std::size_t k = 0; k < smooth; ++k) {
+    std::vector<double> own(rest.size());
+    for (std::size_t i = 0; i < own.size(); ++i)
+      own[i] = left.units[left.values[i].unit].functions[k];
+    const auto take_out = [](const std::vector<double>& unit, std::vector<double>& from) {
+      const double length = std::inner_product(unit.begin(), unit.end(), from.begin(), 0.0);
+      for (std::size_t i = 0; i < from.size(); ++i) from[i] -= length * unit[i];
+    };
+    const auto norm = [&] {
+      return std::sqrt(std::inner_product(own.begin(), own.end(), own.begin(), 0.0));
+    };
+    const double before = norm();
+    for (const auto& unit : all) take_out(unit, own);
+    constexpr double rounding = 1e-6;
+    const double after = norm();
+    if (!(after > rounding * before)) continue;
+    for (double& x : own) x /= after;
+    take_out(own, rest);
+    all.push_back(std::move(own));
+  }
+  for (std::size_t i = 0; i < rest.size(); ++i) rest[i] *= part(i);
+  return rest;
+}
+
+}  // namespace
+
 bool find_variances(Left& left) {
   if (left.stated) {
     for (auto& v : left.values) v.variance = 1;
@@ -223,16 +260,21 @@ bool find_variances(Left& left) {
   }
   static constexpr double largest =
       1e150;  // whose square is finite: f may be next to nothing, or 0
-  const auto sigma = [](const Value& v, std::size_t relative) {
-    return std::clamp(v.slope * (relative ? v.f : 1), 1 / largest, largest);
+  enum Noise { of_one_size, relative, over_cosine };
+  const auto sigma = [&](const Value& v, Noise kind) {
+    const double over = kind == over_cosine ? std::max(left.units[v.unit].nov, least_cosine) : 1;
+    return std::clamp(v.slope * (kind == of_one_size ? 1 : v.f / over), 1 / largest, largest);
   };
   const double n = left.samples;
-  const auto badness = [&](std::size_t relative) {
+  std::vector<double> residuals;
+  for (const auto& v : left.values) residuals.push_back(v.whole);
+  const auto badness = [&](Noise kind) {
     double logs = 0, squares = 0;
     std::vector<double> sizes;
-    for (const auto& v : left.values) {
-      const double root = v.whole / sigma(v, relative);
-      logs += 2 * v.root_count * v.root_count * std::log(sigma(v, relative));
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      const auto& v = left.values[i];
+      const double root = residuals[i] / sigma(v, kind);
+      logs += 2 * v.root_count * v.root_count * std::log(sigma(v, kind));
       squares += root * root;
       if (left.robust) sizes.push_back(std::abs(root));
     }
@@ -242,9 +284,14 @@ bool find_variances(Left& left) {
     for (const double size : sizes) logs += 2 * std::log(scale + size / scale * size);
     return logs - n * std::log(scale * scale);
   };
-  const bool relative = !(badness(0) < badness(1));
-  for (auto& v : left.values) v.variance = sigma(v, relative) * sigma(v, relative);
-  return relative;
+  Noise kind = badness(of_one_size) < badness(relative) ? of_one_size : relative;
+  // What a wrong model leaves may grow towards grazing, too.
+  constexpr double clearly = 6;  // twice the logarithm of the likelihoods' ratio
+  residuals = without_smooth(left);
+  if (badness(over_cosine) < std::min(badness(of_one_size), badness(relative)) - clearly)
+    kind = over_cosine;
+  for (auto& v : left.values) v.variance = sigma(v, kind) * sigma(v, kind);
+  return kind != of_one_size;
 }
 
 std::optional<MisfitCell> worst_cell(const Left& left) {

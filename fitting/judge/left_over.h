@@ -64,6 +64,7 @@ struct Unit {
   std::size_t cell;
   std::array<std::size_t, shared_angles> angle;  ///< its number along each axis
   double count;                                  ///< samples that it counts as
+  double nov;
 };
 
 /// Residuals of a table, and the units that share their errors.
@@ -86,9 +87,9 @@ struct Left {
 /// A parameter at a bound can take nothing up: it is no unknown here.
 Left left_over(const Sampling&, const Problem&, const Fitted&, TableFacts&);
 
-/// Noise is taken as the likelier of two: of one size in f, or in proportion to f; normal, or Cauchy's
-/// for a robust fit, before anything is clipped.  Where the table states it, it is that.
-/// \return  whether in proportion
+/// Noise is taken as the likeliest of three: of one size in f, in proportion to f, or to f/cos θ_o, as where light was divided by the
+/// cosine; normal, or Cauchy's for a robust fit, before anything is clipped.  Where the table states it, it is that.
+/// \return  whether in proportion to f
 bool find_variances(Left&);
 
 /// Cell that is furthest off for certain: by its mean less two standard errors.
