@@ -34,13 +34,12 @@ std::string fit_table(const Table& given, const HowFitted& how, int jobs) {
   return to_json(d);
 }
 
-std::string compare(const Table& t,
+std::string compare(Table& t,
                     const FitOptions& o,
                     const std::vector<std::string>& names,
                     const std::function<void()>& finish) {
-  const auto models = models_asked(names);
-  ModelChoice choice =
-      compare_models(t, o, models, [](const std::string&, double) { let_interrupt(); });
+  ModelChoice choice = compare_on_scale(t, o, models_asked(names),
+                                        [](const std::string&, double) { let_interrupt(); });
   add_spheres(t, choice);
   finish();
   return to_json(choice, advise(choice), compared_table(t, o));
@@ -62,7 +61,8 @@ std::string compare_table(const Table& t,
                           const std::vector<std::string>& models,
                           int jobs) {
   const Jobs threads(jobs);
-  return compare(masked(t, how), how.options, models, [] {});
+  Table own = masked(t, how);
+  return compare(own, how.options, models, [] {});
 }
 
 }  // namespace

@@ -14,7 +14,6 @@
 #include "fitting/batch/batch.h"
 #include "fitting/batch/fit_file.h"
 #include "fitting/choice/document.h"
-#include "fitting/judge/free_scale.h"
 #include "reports/pages/batch_page.h"
 #include "reports/pages/fit_page.h"
 #include "reports/pages/models_page.h"
@@ -220,7 +219,7 @@ Exit run_models(const FitCall& o) {
   if (o.pages)
     throw wrong_usage("--pages is of many tables; the page of --models is --html PAGE.html");
   if (o.part) throw wrong_usage("--part is of the fits of many tables, not of --models");
-  auto models = models_asked(o.models);
+  const auto models = models_asked(o.models);
   const auto files = o.as_one ? tables_of(o.files) : o.files;
   OutputFiles out(files, o.output, o.html);
   Progress progress(o.quiet);
@@ -228,20 +227,10 @@ Exit run_models(const FitCall& o) {
   TableAndDigest in = read_files(files, o.how.bins);
   Table& table = in.table;
   take(table, o.how.measured);
-  FitOptions options = o.how.options;
-  if (options.scale == Scale::free) {
-    scale_values(table, working_factor(table));
-    models = with_weights(options, models);
-    options.scale = Scale::held;
-  }
   ModelChoice choice =
-      compare_models(table, options, models, [&](const std::string& what, double part) {
+      compare_on_scale(table, o.how.options, models, [&](const std::string& what, double part) {
         progress(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
-  if (o.how.options.scale == Scale::free)
-    choice.warnings.insert(choice.warnings.begin(),
-                           "the scale is free: values are multiplied by a factor that makes the "
-                           "table dark, and lobes have weights; ΔE is of that");
   Spheres spheres = add_spheres(table, choice);
   in.finish();
   const Advice advice = advise(choice);

@@ -65,7 +65,7 @@ std::string compare_for_page(const PageRequest& r,
   TableAndDigest in = read_files({r.file}, how.bins);
   take(in.table, how.measured);
   const ModelChoice choice =
-      compare_models(in.table, how.options, models, [&](const std::string& what, double part) {
+      compare_on_scale(in.table, how.options, models, [&](const std::string& what, double part) {
         phase(fmt::format("{} ({:.0f} %)", what, 100 * part));
       });
   in.finish();

@@ -6,6 +6,7 @@
 #include <exception>
 #include <memory>
 #include <optional>
+#include <set>
 
 #include "base/error.h"
 #include "brdf/model/column_run.h"
@@ -15,8 +16,10 @@
 #include "brdf/model/takes_parameter.h"
 #include "fitting/choice/cross_validation.h"
 #include "fitting/fit.h"
+#include "fitting/judge/free_scale.h"
 #include "fitting/solve/problem.h"
 #include "number/distributions.h"
+#include "table/format/measured_by.h"
 #include "table/health/value_warnings.h"
 #include "timing/timing.h"
 
@@ -136,10 +139,9 @@ std::vector<std::string> models_asked(std::vector<std::string> models) {
     models.assign(usual_models().begin(), usual_models().end());
   if (models.size() > 1 && std::ranges::find(models, "all") != models.end())
     throw wrong_usage("--models: 'all' stands by itself");
-  for (std::size_t k = 1; k < models.size(); ++k)
-    if (std::find(models.begin(), models.begin() + static_cast<std::ptrdiff_t>(k), models[k]) !=
-        models.begin() + static_cast<std::ptrdiff_t>(k))
-      throw wrong_usage(fmt::format("--models: '{}' is there twice", models[k]));
+  std::set<std::string_view> met;
+  for (const auto& m : models)
+    if (!met.insert(m).second) throw wrong_usage(fmt::format("--models: '{}' is there twice", m));
   for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table
     std::vector<Setting> none;
     compose(resolve_preset(parse_model(m), none), 1);
@@ -236,6 +238,22 @@ ModelChoice compare_models(const Table& t,
     r.ns = times[next].ns, r.ns_spread = times[next].spread_ns;
     ++next;
   }
+  return choice;
+}
+
+ModelChoice compare_on_scale(Table& t,
+                             const FitOptions& options,
+                             std::vector<std::string> models,
+                             const std::function<void(const std::string&, double)>& progress) {
+  if (options.scale == Scale::held) return compare_models(t, options, models, progress);
+  FitOptions o = options;
+  scale_values(t, working_factor(t));
+  models = with_weights(o, models);
+  o.scale = Scale::held;
+  ModelChoice choice = compare_models(t, o, models, progress);
+  choice.warnings.insert(choice.warnings.begin(),
+                         "the scale is free: values are multiplied by a factor that makes the "
+                         "table dark, and lobes have weights; ΔE is of that");
   return choice;
 }
 

@@ -74,6 +74,13 @@ ModelChoice compare_models(const Table&,
                            std::span<const std::string> models,
                            const std::function<void(const std::string&, double)>& progress = {});
 
+/// The same of options whose scale may be free: the table is then multiplied by a factor that makes it dark, each lobe gets a weight,
+/// and the choice says so.  Throws wrong usage where none of the models can have weights.
+ModelChoice compare_on_scale(Table&,
+                             const FitOptions&,
+                             std::vector<std::string> models,
+                             const std::function<void(const std::string&, double)>& progress = {});
+
 /// Recommendation, and why.
 struct Advice {
   bool none_fits = false;                 ///< whether all miss the table by more than noise

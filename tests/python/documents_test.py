@@ -42,6 +42,11 @@ class Documents(InAFolder):
         of_table = gonio.fit(gonio.read("paint.csv"), models=names)
         self.assertEqual(of_table["recommended"], PAINT)
 
+    def test_models_of_a_table_of_free_scale_are_the_programs(self):
+        names = ["lambert", PAINT]
+        self.expect_same(gonio.fit("paint.csv", models=names, scale="free"),
+                         program("fit", "paint.csv", "--scale", "free", "--models", ",".join(names), "--json"))
+
     def test_albedos_are_the_programs(self):
         mu = [0.01, 0.5, 1]
         words = ["--mu", "0.01,0.5,1", "--average", "--json"]
