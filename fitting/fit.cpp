@@ -253,10 +253,12 @@ FitResult fit_and_judge(const Table& t,
   TableFacts& table = columns.facts(t);
   LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, table);
   find_dark_bias(lack, sampling, p, f, u, table);
+  if (lack.misfit.told) lack.moved_by_scale = moved_by_scale(t, p, f, a.residuals.log_rms);
   widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
   const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u,
-                                          t.truth ? 0 : lost_below(table));
+                                          t.truth ? std::vector<double>() : lost_below(table));
+  if (!lack.moved_by_scale.empty()) leave_unbounded_by_scale(p, u);
   keep_to_what_is_seen(table, p, f.model.values, lack.misfit, u);
   watch.lap("limits_ms");
   for (std::size_t i = 0; i < in_order.size(); ++i)
@@ -332,18 +334,26 @@ FitResult fit_and_judge(const Table& t,
   facts = with_table(std::move(facts), o, table, d);
   for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));
   if (tries) announce("trying other models");
-  d.next = next_steps(o, d, facts, [&](const std::string& spec) {
+  const auto attempt = [&](const Table& as, const FitOptions& with, const std::string& spec) {
     if (!tries) return std::nan("");
     try {
-      const FitOptions other = options_for(o, spec);
-      const Problem q = pose(t, other);
-      const Sampling s = sampling_for(q, t, bins);
+      const FitOptions other = options_for(with, spec);
+      const Problem q = pose(as, other);
+      const Sampling s = sampling_for(q, as, bins);
       const auto coarse = coarse_fit(q, s);
       return coarse ? residual_statistics(coarse->model, s, coarse_samples).log_rms : std::nan("");
     } catch (const Error&) {  // not of this table
       return std::nan("");
     }
-  });
+  };
+  d.next = next_steps(
+      o, d, facts, [&](const std::string& spec) { return attempt(t, o, spec); },
+      [&](double left) {
+        const auto as_given = [&](const Table& as, const FitOptions& with) {
+          return attempt(as, with, with.model);
+        };
+        return tries ? other_unit(t, o, left, as_given) : std::nullopt;
+      });
   return {std::move(d), std::move(found.best.model), std::move(without_lobes)};
 }
 

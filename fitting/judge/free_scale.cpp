@@ -10,6 +10,7 @@
 #include "base/error.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/spec.h"
+#include "fitting/judge/assess.h"
 #include "fitting/judge/uncertainty.h"
 #include "fitting/solve/problem.h"
 #include "geometry/half_difference.h"
@@ -84,6 +85,44 @@ std::vector<std::string> with_weights(const FitOptions& o, std::span<const std::
     }
   if (all.empty() && refused) throw Error(*refused);
   return all;
+}
+
+std::vector<double> moved_by_scale(const Table& t, const Problem& p, const Fitted& f, double here) {
+  constexpr double far_less = 0.5;
+  if (!t.list() || t.truth || p.options.scale == Scale::free) return {};
+  try {
+    Table scaled = t;
+    scale_values(scaled, working_factor(t));
+    const Problem q = pose(scaled, with_weights(p.options));
+    const Sampling s = sampling_for(q, scaled, t.bins());
+    const auto open = coarse_fit(q, s);
+    if (!open || !(residual_statistics(open->model, s, coarse_samples).log_rms < far_less * here))
+      return {};
+    std::vector<double> moved(p.free.size());
+    for (const auto& a : p.start.model.parameters) {
+      const auto* b = q.start.model.find(a.name);
+      for (std::size_t c = 0; b && !is_linear(a.name) && c < a.count; ++c)
+        if (p.free.mask()[a.first + c])
+          moved[p.free.index(a.first + c)] =
+              open->model.values[b->first + c] - f.model.values[a.first + c];
+    }
+    return moved;
+  } catch (const Error&) {  // its lobes have no weights
+    return {};
+  }
+}
+
+void leave_unbounded_by_scale(const Problem& p, Uncertainty& u) {
+  for (const auto& q : p.start.model.parameters)
+    for (std::size_t s = q.first; is_linear(q.name) && s < q.first + q.count; ++s) {
+      if (!p.free.mask()[s]) continue;
+      const std::size_t i = p.free.index(s);
+      auto& v = u[i];
+      if (v.status != ParameterStatus::free) continue;
+      v.status = ParameterStatus::unbounded;
+      v.low = p.bounds.low[i], v.high = p.bounds.high[i];
+      v.reason = "best value at this scale; the model meets the table better at another";
+    }
 }
 
 double working_factor(const Table& t) {

@@ -11,8 +11,11 @@
 #include <vector>
 
 #include "brdf/model/model.h"
+#include "fitting/judge/uncertainty.h"
 #include "fitting/result/document.h"
 #include "fitting/solve/options.h"
+#include "fitting/solve/problem.h"
+#include "fitting/solve/search.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -22,6 +25,14 @@ namespace gonio {
 FitOptions with_weights(FitOptions);
 /// Those of several models that can have weights, each once.  Throws wrong usage where none can.
 std::vector<std::string> with_weights(const FitOptions&, std::span<const std::string> models);
+
+/// How far each free parameter but kd and weights moves where the scale is free, of a list whose values a free scale brings far nearer to
+/// the model: whoever does not know that has intervals around the wrong values.  Empty of others.
+/// \param here  log RMS with the scale as it is
+std::vector<double> moved_by_scale(const Table&, const Problem&, const Fitted&, double here);
+
+/// Takes the bounds from kd and weights of a fit whose table is of another scale.
+void leave_unbounded_by_scale(const Problem&, Uncertainty&);
 
 /// Factor on a table's values that brings kd and weights of its fit into their ranges.
 double working_factor(const Table&);

@@ -42,8 +42,8 @@ double noise_square(const Left& left) {
   return 2 * sizes.size() > left.values.size() ? std::pow(1.4826 * median(sizes), 2) : std::nan("");
 }
 
-/// The table without what the model has within noise of one size, of which the lower half is lost.
-Table without_lost(const Table& t, const BoundModel& b, double lost_below) {
+/// The table without what the model has within a channel's noise, of which the lower half is lost.
+Table without_lost(const Table& t, const BoundModel& b, const std::vector<double>& lost_below) {
   constexpr double noises = 8;  // beyond which logarithms are hardly lowered
   Table bright = t;
   const SampleAngles at(t, t.bins());
@@ -56,7 +56,7 @@ Table without_lost(const Table& t, const BoundModel& b, double lost_below) {
     const auto f = evaluate(b, angles);
     for (std::size_t c = 0; c < f.size(); ++c)
       for (std::size_t i = first; i < last; ++i)
-        if (!(f[c][i - first] > noises * lost_below)) bright.values[c][i] = std::nan("");
+        if (!(f[c][i - first] > noises * lost_below[c])) bright.values[c][i] = std::nan("");
   }
   return bright;
 }
@@ -290,11 +290,15 @@ std::vector<LackOfFit::SharedGains> gains_of(const Left& left,
 }
 
 /// Whether each free parameter is the colour of a diffuse term.
-std::vector<bool> are_diffuse(const Problem& p) {
+/// \param lost  if there, only of channels that lost values: one for all channels where all did
+std::vector<bool> are_diffuse(const Problem& p, const std::vector<double>& lost = {}) {
   std::vector<bool> all(p.free.size());
   for (const auto& q : p.start.model.parameters)
     for (std::size_t s = q.first; s < q.first + q.count; ++s)
-      if (p.free.mask()[s]) all[p.free.index(s)] = q.name.starts_with("kd");
+      if (p.free.mask()[s])
+        all[p.free.index(s)] =
+            q.name.starts_with("kd") &&
+            (lost.empty() || (q.count > 1 ? lost[s - q.first] : std::ranges::min(lost)) > 0);
   return all;
 }
 
@@ -432,8 +436,8 @@ LackOfFit lack_of_all(
 
 LackOfFit lack_of_fit(
     const Sampling& s, const Problem& p, const Fitted& f, double samples_used, TableFacts& facts) {
-  const double lost = s.table().truth || p.options.robust ? 0 : lost_below(facts);
-  if (!(lost > 0)) return lack_of_all(s, p, f, samples_used, facts);
+  const auto lost = s.table().truth || p.options.robust ? std::vector<double>() : lost_below(facts);
+  if (!is_any_lost(lost)) return lack_of_all(s, p, f, samples_used, facts);
   // Beside values that lost their lower half to noise the right model misses the others, too.
   const Table bright = without_lost(s.table(), f.model, lost);
   const Sampling sampling = sampling_for(p, bright, bright.bins());
@@ -450,15 +454,15 @@ LackOfFit lack_of_fit(
   found = lack_of_all(sampling, p, beside, samples_used, facts);
   found.moved_by_noise = p.free.of(f.model.values);
   const auto without = p.free.of(beside.model.values);
-  const auto diffuse = are_diffuse(p);
+  const auto diffuse = are_diffuse(p, lost);
   for (std::size_t i = 0; i < without.size(); ++i)  // dark values only limit a diffuse term
     found.moved_by_noise[i] = diffuse[i] ? 0 : found.moved_by_noise[i] - without[i];
   return found;
 }
 
 double LackOfFit::moved(std::size_t i) const {
-  return std::hypot(moved_by_outliers.empty() ? 0 : moved_by_outliers[i],
-                    moved_by_noise.empty() ? 0 : moved_by_noise[i]);
+  const auto of = [&](const std::vector<double>& all) { return all.empty() ? 0 : all[i]; };
+  return std::hypot(of(moved_by_outliers), of(moved_by_noise), of(moved_by_scale));
 }
 
 void find_dark_bias(LackOfFit& found,
@@ -468,7 +472,7 @@ void find_dark_bias(LackOfFit& found,
                     const Uncertainty& judged,
                     TableFacts& table) {
   if (p.options.metric != Metric::log || p.options.robust || table.table().truth ||
-      found.misfit.told || found.outliers || lost_below(table) > 0)
+      found.misfit.told || found.outliers || is_any_lost(lost_below(table)))
     return;
   const Left left = left_over(sampling, p, f, table);
   std::vector<std::pair<double, double>> values;  // f, and ln of data over model

@@ -42,6 +42,8 @@ struct LackOfFit {
   double dark_bias = 0;
   /// How far noise of dark values moves each free parameter.
   std::vector<double> moved_by_noise = {};
+  /// How far each free parameter moves where the values' scale is free, see moved_by_scale().
+  std::vector<double> moved_by_scale = {};
   /// Part of a parameter's error that is neither noise nor misfit.
   double moved(std::size_t i) const;
 };

@@ -146,12 +146,14 @@ std::vector<std::string> others_of(const ModelSpec& spec) {
 
 /// Tries them, and names those that take up most of a misfit, and so that it shows.  False where none does.
 /// \param otherwise  gets what to say of them then, where nothing else helps
+/// \param units     tried, too: one stands first where no model leaves less
 /// \param less      the model without a lobe of which nothing is known; if that does as well as the best, no other is named
 /// \param needless  whether the fit is that one's
 bool add_models(Steps& steps,
                 const ModelSpec& spec,
                 const FitDocument& d,
                 const TryModel& attempt,
+                const TryUnits& units,
                 const std::string& less,
                 bool needless,
                 std::string& otherwise) {
@@ -169,15 +171,18 @@ bool add_models(Steps& steps,
   std::vector<double> left(others.size());
   tbb::parallel_for(std::size_t{0}, left.size(),
                     [&](std::size_t k) { left[k] = attempt(others[k]); });
+  const auto least = [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); };
+  constexpr double much_less = 1.05;  // log RMS
+  auto unit = units ? units(here) : std::nullopt;
+  if (unit && *std::ranges::min_element(left, least) * much_less < unit->log_rms) unit.reset();
+  if (unit) steps.add(unit->step);
   std::vector<std::pair<double, std::string>> found;
   for (std::size_t k = 0; k < left.size(); ++k)
     if (left[k] < shows * here && here * here - left[k] * left[k] > worth * misfit)
       found.emplace_back(left[k], others[k]);
   if (found.empty()) {
-    const auto less_left = [](double a, double b) {
-      return a < b || (std::isnan(b) && !std::isnan(a));
-    };
-    const auto nearest = std::ranges::min_element(left, less_left);
+    if (unit) return true;
+    const auto nearest = std::ranges::min_element(left, least);
     if (nearest == left.end() || std::isnan(*nearest)) return false;
     otherwise =
         *nearest < shows * here
@@ -189,9 +194,9 @@ bool add_models(Steps& steps,
     return false;
   }
   std::ranges::stable_sort(found, {}, [](const auto& f) { return f.first; });
-  std::erase_if(found, [most = std::max(near_best * found[0].first, 1e-6)](const auto& f) {
-    return f.first > most;
-  });
+  const double best = unit ? std::min(unit->log_rms, found[0].first) : found[0].first;
+  std::erase_if(
+      found, [most = std::max(near_best * best, 1e-6)](const auto& f) { return f.first > most; });
   const auto simplest = std::ranges::find(found, less, [](const auto& f) { return f.second; });
   if (simplest != found.end() && simplest->first <= as_well * found[0].first) found = {*simplest};
   for (std::size_t k = 0; k < std::min(few, found.size()); ++k)
@@ -206,7 +211,8 @@ bool add_models(Steps& steps,
 std::vector<std::string> next_steps(const FitOptions& o,
                                     const FitDocument& d,
                                     const FitFacts& f,
-                                    const TryModel& attempt) {
+                                    const TryModel& attempt,
+                                    const TryUnits& units) {
   Steps steps;
   const ModelSpec spec = parse_model(d.model);
 
@@ -224,8 +230,8 @@ std::vector<std::string> next_steps(const FitOptions& o,
   const auto unknown = unknown_lobe(d);
   const std::string less = unknown ? without_lobe(spec, *unknown) : "";
   std::string otherwise;
-  const bool mended =
-      d.misfit.told && !f.no_f && add_models(steps, spec, d, attempt, less, f.needless, otherwise);
+  const bool mended = d.misfit.told && !f.no_f &&
+                      add_models(steps, spec, d, attempt, units, less, f.needless, otherwise);
   if (f.retro && !mended) {
     constexpr double of_it = 3,
                      widest = 45;  // half widths, beyond which a lobe has next to nothing
@@ -274,7 +280,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
           fmt::format("hold {} (--fix) if it is known from elsewhere: these data hardly tell it",
                       hardly.front()));
   }
-  if (f.dark_bias > 0)
+  if (f.dark_bias > 0 && !f.clipped)
     steps.add("--metric l2_cosine gives dark values, whose logarithms noise lowers, less weight");
   else if (d.log_offset > 0)
     steps.add(fmt::format("--metric l2_cosine gives dark values, which the {}, less weight",

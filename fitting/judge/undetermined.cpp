@@ -277,7 +277,7 @@ bool find_undetermined(const Problem& p,
                        const SampleCounts& counts,
                        bool widened,
                        Uncertainty& u,
-                       double lost_below) {
+                       std::span<const double> lost_below) {
   const Accumulator<double> accumulate(p.start.model, thin, p.free, f.huber);
   const NormalEquations here = accumulate.normal_equations(f.model.values);
   const std::size_t n = p.free.size();
@@ -373,8 +373,11 @@ bool find_undetermined(const Problem& p,
   };
   leave_out_whole_ranges();
   for (const auto& q : p.start.model.parameters)
-    for (std::size_t s = q.first; lost_below > 0 && s < q.first + q.count; ++s) {
+    for (std::size_t s = q.first; !lost_below.empty() && s < q.first + q.count; ++s) {
       if (!q.name.starts_with("kd") || !p.free.mask()[s]) continue;
+      // One for all channels is known by those that lost nothing.
+      const double lost = q.count > 1 ? lost_below[s - q.first] : std::ranges::min(lost_below);
+      if (!(lost > 0)) continue;
       const std::size_t i = p.free.index(s);
       const double high = u[i].high_end(f.model.values[s]);
       const bool at_low =
@@ -382,7 +385,7 @@ bool find_undetermined(const Problem& p,
       if (!is(u[i], ParameterStatus::free) && !at_low) continue;
       u[i].keep_limit(
           ParameterStatus::upper_limit,
-          std::min((std::isnan(high) ? 0 : high) + std::numbers::pi * lost_below, p.bounds.high[i]),
+          std::min((std::isnan(high) ? 0 : high) + std::numbers::pi * lost, p.bounds.high[i]),
           "noise or digits took dark values away: it may be less");
     }
   ends.hold_over_unknowns(luck * variance);

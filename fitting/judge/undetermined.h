@@ -2,6 +2,7 @@
 /// \file
 /// Limits of what is determined: a value with its interval, an upper or lower limit, or nothing.
 
+#include <span>
 #include <string>
 
 #include "fitting/judge/uncertainty.h"
@@ -33,7 +34,7 @@ void forget_lobes(const Problem&, Uncertainty&, Lobes, const std::string& why);
 /// \param thin  a thinned table   \param counts  of the whole one
 /// \param widened  whether the intervals allow for a misfit: a value whose whole range that leaves open
 ///                 stays, as the best one of this model, and so do the others of its lobe
-/// \param lost_below  size of values that noise or digits took away [1/sr]: a diffuse term then has an upper limit
+/// \param lost_below  size of values that noise or digits took away from each channel [1/sr]: a diffuse term then has an upper limit
 ///
 /// The interval of a known parameter includes how far it moves while the unknown ones take every value that they may have.
 bool find_undetermined(const Problem&,
@@ -42,6 +43,6 @@ bool find_undetermined(const Problem&,
                        const SampleCounts&,
                        bool widened,
                        Uncertainty&,
-                       double lost_below = 0);
+                       std::span<const double> lost_below = {});
 
 }  // namespace gonio

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "brdf/model/roughness.h"
 #include "table/health/health.h"
+#include "table/health/lost_values.h"
 
 #include <fmt/format.h>
 
@@ -46,6 +47,16 @@ std::string copies_in_words(const Table& t) {
   return s.empty() ? s : s + " only repeat another value for value";
 }
 
+/// " of channel b" where the others have no negative values.
+std::string only_negative_channel(const Table& t) {
+  std::vector<std::string> negative;
+  for (std::size_t c = 0; c < t.values.size(); ++c)
+    if (std::ranges::any_of(t.values[c], [](double v) { return v < 0; }))
+      negative.push_back(t.channels[c]);
+  return negative.size() == 1 && t.values.size() > 1 ? " of channel " + printable(negative[0], 40)
+                                                     : "";
+}
+
 /// Bias of relative errors, of the values: the mean of 1/y is above 1/f by s² for noise of size s; 0 where
 /// it is little beside every interval.
 double telling_bias(const FitOptions& o, const FitDocument& d) {
@@ -65,6 +76,7 @@ FitFacts with_table(FitFacts f, const FitOptions& o, TableFacts& table, const Fi
   f.few_angles = !t.truth && o.intervals != Intervals::independent && !enough_angles(f.angles);
   f.copies = !copies_in_words(t).empty();
   f.offset = table.negative_offset() > 0;
+  f.clipped = f.dark_bias > 0 && is_clipped(table);
   if (!d.misfit.reproduces()) f.retro = table.retro();
   // Asked of narrow lobes alone: looking for the peak takes as long as a fit.
   const auto narrow = [](const FittedParameter& p) {
@@ -102,9 +114,9 @@ std::vector<std::string> warnings(const FitOptions& o,
   }
   if (d.log_offset > 0 && !f.offset && f.dark_bias == 0)
     all.push_back(fmt::format(
-        "negative values betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
+        "negative values{} betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
         "to dark places",
-        d.log_offset));
+        only_negative_channel(t), d.log_offset));
   for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
   if (const auto& odd = f.odd_angle)
@@ -213,7 +225,9 @@ std::vector<std::string> physics_in_words(const Physics& p) {
 std::vector<std::string> misfit_in_words(const Misfit& m) {
   if (!m.told) return {};
   std::string size = typical_factor(m.size);
-  for (std::size_t k = 0; k < m.follows.size(); ++k)
+  constexpr std::size_t every = 3;  // what they may follow
+  if (m.follows.size() >= every) size += ", varying with every angle";
+  for (std::size_t k = 0; k < m.follows.size() && m.follows.size() < every; ++k)
     size += (k == 0 ? ", varying with " : k + 1 < m.follows.size() ? ", " : " and ") + m.follows[k];
   std::vector<std::string> all{"beyond noise the model is off by a factor of " + size +
                                "; intervals allow for it"};

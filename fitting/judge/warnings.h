@@ -29,6 +29,7 @@ struct FitFacts {
   bool beyond_stated = false;  ///< whether what is left is more than the table's own uncertainties
   bool offset = false;         ///< whether negative values are an offset rather than noise
   bool copies = false;         ///< whether angles of the table only repeat another
+  bool clipped = false;        ///< whether noise of dark values was clipped
   double dark_bias = 0;        ///< of ln f, by noise of the darkest values; 0 where it is little
   std::optional<OddAngle> odd_angle = {};
   std::optional<Outliers> outliers = {};

@@ -16,19 +16,6 @@
 namespace gonio {
 namespace {
 
-/// The first two, and the next two, keep what exchanging the directions changes, and so do the pairs of their squares; the two
-/// after these change nothing by it.
-constexpr std::array cosines{Cosines{{0, 1}, "f cos(theta_o)"},
-                             Cosines{{-1, 0}, "f/cos(theta_i)"},
-                             Cosines{{1, 0}, "f cos(theta_i)"},
-                             Cosines{{0, -1}, "f/cos(theta_o)"},
-                             Cosines{{0, 2}, "f cos(theta_o)^2"},
-                             Cosines{{-2, 0}, "f/cos(theta_i)^2"},
-                             Cosines{{2, 0}, "f cos(theta_i)^2"},
-                             Cosines{{0, -2}, "f/cos(theta_o)^2"},
-                             Cosines{{1, 1}, "f cos(theta_i) cos(theta_o)"},
-                             Cosines{{-1, -1}, "f/(cos(theta_i) cos(theta_o))"}};
-
 /// Slopes of ln f over the logarithms of both cosines, away from the highlight, and the spread of ln f before and
 /// after they are taken out.  Of a cosine that hardly changes the slope is 0.
 struct Trend {

@@ -2,6 +2,7 @@
 /// \file
 /// Cosines that values are multiplied by, and what exchanging the directions changes.
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -14,6 +15,19 @@ namespace gonio {
 struct Cosines : CosinePowers {
   const char* in_words;
 };
+
+/// The first two, and the next two, keep what exchanging the directions changes, and so do the pairs of their squares; the two
+/// after these change nothing by it.
+inline constexpr std::array cosines{Cosines{{0, 1}, "f cos(theta_o)"},
+                                    Cosines{{-1, 0}, "f/cos(theta_i)"},
+                                    Cosines{{1, 0}, "f cos(theta_i)"},
+                                    Cosines{{0, -1}, "f/cos(theta_o)"},
+                                    Cosines{{0, 2}, "f cos(theta_o)^2"},
+                                    Cosines{{-2, 0}, "f/cos(theta_i)^2"},
+                                    Cosines{{2, 0}, "f cos(theta_i)^2"},
+                                    Cosines{{0, -2}, "f/cos(theta_o)^2"},
+                                    Cosines{{1, 1}, "f cos(theta_i) cos(theta_o)"},
+                                    Cosines{{-1, -1}, "f/(cos(theta_i) cos(theta_o))"}};
 
 /// Command that divides by them.
 std::string divided_by(const Table&, const CosinePowers&);

@@ -82,9 +82,8 @@ double noise_floor(const Table& t) {
 }
 
 double negative_offset(TableFacts& facts) {
-  constexpr double follows = 0.4;
   const double size = negative_size(facts.table());
-  return size > 0 && roughness_of_negatives(facts.table()) < follows ? size : 0;
+  return size > 0 && negatives_follow_neighbours(facts.table()) ? size : 0;
 }
 
 double spread_of_negatives(const Table& t) {

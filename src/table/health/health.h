@@ -94,7 +94,7 @@ double spread_of_negatives(const Table&);
 /// Median |negative| [1/sr] where such values follow their neighbours, as those do from which too much was taken off; else 0.
 double negative_offset(TableFacts&);
 double noise_floor(const Table&);
-/// The channel that holds all the negative values, where a noise floor would show in the others, too.
+/// The channel that holds all the negative values, where these follow their neighbours and are no noise.
 std::optional<std::size_t> negative_channel(TableFacts&);
 
 /// For each angle of an in/out grid's axis 0 (incident) or 1 (outgoing) the first of the run of angles

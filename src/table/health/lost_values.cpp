@@ -28,6 +28,48 @@ bool is_coarse(std::size_t zeros, std::size_t coarse, std::size_t values) {
   return many(zeros + coarse, 0.05) && (many(zeros, 0.02) || !many(zeros + coarse, 0.95));
 }
 
+/// Values that are 0, or that rounding left one digit, of a table's.
+struct Zeros {
+  std::size_t none = 0, coarse = 0, values = 0, negative = 0;
+  std::vector<double> lost;    ///< by rounding, of each value, in parts of it
+  std::set<double> different;  ///< the first few
+  FileRounding rounding;
+
+  bool are_many(double part) const {
+    return static_cast<double>(none) > part * static_cast<double>(values);
+  }
+  bool are_rounded() const { return rounding.absolute > 0 && is_coarse(none, coarse, values); }
+  bool are_clipped() const {
+    constexpr double some = 0.005;
+    return !are_rounded() && negative == 0 && are_many(some);
+  }
+};
+constexpr std::size_t few_values = 8;
+Zeros zeros_of(const Table& t) {
+  const SampleAngles at(t);
+  Zeros z;
+  z.rounding = rounding_of(t);
+  const double one_digit = digits_of_one * z.rounding.absolute;
+  const std::size_t step = t.size() / 60'000 + 1;
+  for (const auto& plane : t.values) {
+    std::size_t none = 0, some = 0;
+    for (std::size_t i = 0; i < t.size(); i += step) {
+      const Mask m = plane[i] <= 0 ? mask(at(i), plane[i]) : Mask::valid;
+      none += m == Mask::valid && plane[i] == 0;
+      z.negative += m == Mask::negative;
+      some += plane[i] > 0;
+      z.coarse += plane[i] > 0 && plane[i] < one_digit;
+      if (!(plane[i] > 0) || mask(at(i), plane[i]) != Mask::valid) continue;
+      z.lost.push_back(z.rounding.of(plane[i]) / plane[i]);
+      if (z.different.size() < few_values) z.different.insert(plane[i]);
+    }
+    if (some == 0) continue;  // of a channel of zeros something else is said
+    z.none += none;
+    z.values += none + some;
+  }
+  return z;
+}
+
 /// Number of values at the end of a range, where many share the last one, as they share no other near it.
 /// \param values  of a channel or of several with one end, sorted from that end on
 /// \param is_near  whether a value is near the last one
@@ -79,6 +121,21 @@ std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
   return all;
 }
 
+/// The least value, where that many share it and noise goes on above.
+std::optional<SharedEnd> clipped_end(TableFacts& facts) {
+  const Table& t = facts.table();
+  for (auto& e : shared_ends(t, false)) {
+    std::vector<double> above;  // a computed base is shared, too
+    for (const auto& d : facts.noise_samples().all)
+      if (const double v = t.values[d.channel][d.sample]; v > e.value && v < 10 * e.value)
+        above.push_back(std::abs(d.more));
+    constexpr std::size_t few = 8;
+    constexpr double noisy = 0.1;
+    if (above.size() >= few && median(above) > noisy) return std::move(e);
+  }
+  return {};
+}
+
 /// Name of a channel's values in a mask.
 std::string in_mask(const std::string& channel) {
   return channel == "f" ? channel : "f_" + channel;
@@ -101,53 +158,28 @@ void warn_of_fill(const Table& t, const Fill& fill, std::vector<std::string>& al
 }  // namespace
 
 void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
-  // Numbers that somebody typed may be as short.
-  constexpr std::size_t most_by_hand = 50, few_values = 8;
-  constexpr double small_loss = 0.015;  // standard deviation
-  const Table& t = facts.table();
-  const SampleAngles at(t);
-  const FileRounding rounding = rounding_of(t);
-  const double one_digit = digits_of_one * rounding.absolute;
-  std::size_t zeros = 0, coarse = 0, values = 0, negative = 0;
-  std::vector<double> lost;  // by rounding, of each value
-  std::set<double> different;
-  const std::size_t step = t.size() / 60'000 + 1;
-  for (const auto& plane : t.values) {
-    std::size_t none = 0, some = 0;
-    for (std::size_t i = 0; i < t.size(); i += step) {
-      const Mask m = plane[i] <= 0 ? mask(at(i), plane[i]) : Mask::valid;
-      none += m == Mask::valid && plane[i] == 0;
-      negative += m == Mask::negative;
-      some += plane[i] > 0;
-      coarse += plane[i] > 0 && plane[i] < one_digit;
-      if (!(plane[i] > 0) || mask(at(i), plane[i]) != Mask::valid) continue;
-      lost.push_back(rounding.of(plane[i]) / plane[i]);
-      if (different.size() < few_values) different.insert(plane[i]);
-    }
-    if (some == 0) continue;  // of a channel of zeros something else is said
-    zeros += none;
-    values += none + some;
-  }
-  const auto many = [&](std::size_t n, double part) {
-    return static_cast<double>(n) > part * static_cast<double>(values);
-  };
-  if (rounding.absolute > 0 && is_coarse(zeros, coarse, values))
+  constexpr std::size_t most_by_hand = 50;  // numbers that somebody typed may be as short
+  constexpr double small_loss = 0.015;      // standard deviation
+  Zeros z = zeros_of(facts.table());
+  if (z.are_rounded())
     all.push_back(fmt::format(
         "{} of {} values are rounded to one digit or to 0: dark places get upper limits",
-        zeros + coarse, values));
-  else if (negative == 0 && many(zeros, 0.005))
-    all.push_back(
-        fmt::format("{} of {} values are 0, clipped noise or shadow: logarithms leave them out "
-                    "(--metric l2_cosine counts them)",
-                    zeros, values));
-  else if (const double typical = lost.empty() ? 0 : median(lost);
-           lost.size() >= most_by_hand && different.size() == few_values && typical > small_loss)
+        z.none + z.coarse, z.values));
+  else if (z.are_clipped())
+    all.push_back(fmt::format(
+        "{} of {} values are 0, shadow or clipped noise, which biases every metric (leave negative "
+        "values in the file)",
+        z.none, z.values));
+  else if (const double typical = z.lost.empty() ? 0 : median(z.lost);
+           z.lost.size() >= most_by_hand && z.different.size() == few_values &&
+           typical > small_loss)
     all.push_back(fmt::format(
         "values are rounded to {}, typically {:.2g} % of a value: parameters may be off by more "
         "than their intervals",
-        rounding.digits > 0
-            ? fmt::format("{} significant digit{}", rounding.digits, rounding.digits > 1 ? "s" : "")
-            : fmt::format("steps of {:.3g} 1/sr", rounding.absolute * std::sqrt(12)),
+        z.rounding.digits > 0
+            ? fmt::format("{} significant digit{}", z.rounding.digits,
+                          z.rounding.digits > 1 ? "s" : "")
+            : fmt::format("steps of {:.3g} 1/sr", z.rounding.absolute * std::sqrt(12)),
         100 * typical));
 }
 
@@ -169,35 +201,30 @@ void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
         few ? fmt::format("'{}'", fmt::join(conditions, " or ")) : few_of(conditions, " or "),
         few ? "leaves them out" : "leave them out"));
   }
-  for (const auto& e : shared_ends(t, false)) {
-    // A computed base is shared, too; clipped noise goes on above.
-    std::vector<double> above;
-    for (const auto& d : facts.noise_samples().all)
-      if (const double v = t.values[d.channel][d.sample]; v > e.value && v < 10 * e.value)
-        above.push_back(std::abs(d.more));
-    constexpr std::size_t few = 8;
-    constexpr double noisy = 0.1;
-    if (above.size() < few || !(median(above) > noisy)) continue;
-    all.push_back(found(e) +
-                  ", and none is less: clipped noise? (--metric l2_cosine minds it less)");
+  if (const auto e = clipped_end(facts)) {
+    all.push_back(found(*e) + ", and none is less: clipped noise? It biases every metric");
     return;
   }
   if (full.empty())
     if (const auto fill = fill_of(t)) warn_of_fill(t, *fill, all);
 }
 
-double lost_below(TableFacts& facts) {
+bool is_clipped(TableFacts& facts) {
+  return zeros_of(facts.table()).are_clipped() || clipped_end(facts);
+}
+
+std::vector<double> lost_below(TableFacts& facts) {
   const Table& t = facts.table();
   constexpr double many = 0.02;       // of the values
   constexpr double of_half = 1.4826;  // the standard deviation of noise, of its typical size
-  if (facts.noise_floor() > 0) return facts.noise_floor();
   const SampleAngles at(t);
-  const double rounding = rounding_of(t).absolute;
-  std::size_t zeros = 0, coarse = 0, values = 0;
+  const double rounding = rounding_of(t).absolute, floor = facts.noise_floor();
   const std::size_t step = t.size() / 60'000 + 1;
-  std::vector<double> beside;
-  for (const auto& plane : t.values) {
-    if (std::ranges::none_of(plane, [](double v) { return v > 0; })) continue;
+  const auto below = [&](const Values& plane) -> double {
+    if (std::ranges::none_of(plane, [](double v) { return v > 0; })) return 0;
+    if (floor > 0) return std::ranges::any_of(plane, [](double v) { return v < 0; }) ? floor : 0;
+    std::size_t zeros = 0, coarse = 0, values = 0;
+    std::vector<double> beside;
     for (std::size_t i = 0; i < t.size(); i += step) {
       values += plane[i] >= 0;
       coarse += plane[i] > 0 && plane[i] < digits_of_one * rounding;
@@ -206,11 +233,14 @@ double lost_below(TableFacts& facts) {
       for (const std::size_t k : {i - 1, i + 1})
         if (k < t.size() && plane[k] > 0) beside.push_back(plane[k]);
     }
-  }
-  if (rounding > 0 && is_coarse(zeros, coarse, values)) return std::sqrt(12) * rounding / 2;
-  if (!(static_cast<double>(zeros) > many * static_cast<double>(values)) || beside.empty())
-    return 0;
-  return of_half * median(beside);
+    if (rounding > 0 && is_coarse(zeros, coarse, values)) return std::sqrt(12) * rounding / 2;
+    if (!(static_cast<double>(zeros) > many * static_cast<double>(values)) || beside.empty())
+      return 0;
+    return of_half * median(beside);
+  };
+  std::vector<double> lost;
+  for (const auto& plane : t.values) lost.push_back(below(plane));
+  return lost;
 }
 
 }  // namespace gonio

@@ -2,6 +2,7 @@
 /// \file
 /// Values that noise, digits, a full detector or somebody who filled gaps took away.
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -16,8 +17,15 @@ void warn_of_zeros(TableFacts&, std::vector<std::string>& all);
 /// somebody filled a gap.
 void warn_of_shared_ends(TableFacts&, std::vector<std::string>& all);
 
-/// Size of noise or digits below which the table lost values [1/sr]: the noise floor that negative values betray, or, where
-/// more than 2 % of the values are 0, what those beside them typically are.  Else 0.
-double lost_below(TableFacts&);
+/// Size of noise or digits below which each channel lost values [1/sr]: the noise floor that its negative values betray, or, where
+/// more than 2 % of its values are 0, what those beside them typically are.  Else 0.
+std::vector<double> lost_below(TableFacts&);
+/// True where some channel lost values.
+inline bool is_any_lost(const std::vector<double>& lost) {
+  return std::ranges::any_of(lost, [](double size) { return size > 0; });
+}
+
+/// True where noise below 0, or below a least value, was clipped: every metric is then biased.
+bool is_clipped(TableFacts&);
 
 }  // namespace gonio

@@ -315,7 +315,8 @@ Noise estimate_noise(const Table& t, const NoiseSamples& samples) {
   return noise;
 }
 
-double roughness_of_negatives(const Table& t) {
+bool negatives_follow_neighbours(const Table& t) {
+  constexpr double follows = 0.4;
   constexpr std::size_t least_values = 8;
   const SampleAngles at(t);
   double most = nan;
@@ -337,7 +338,7 @@ double roughness_of_negatives(const Table& t) {
     const double ratio = median(apart) / median(sizes);
     if (!(ratio <= most)) most = ratio;
   }
-  return most;
+  return most < follows;
 }
 
 }  // namespace gonio

@@ -54,8 +54,8 @@ inline Noise estimate_noise(const Table& t) {
   return estimate_noise(t, noise_samples(t));
 }
 
-/// Distance of negative values from the line between their neighbours, over their size: medians, along the angle where that is
-/// most.  Noise is further off than it is large; values that an offset carries below 0 follow their neighbours.  NaN of few.
-double roughness_of_negatives(const Table&);
+/// True where negative values follow their neighbours, as those do that an offset carries below 0: their distance from the line between
+/// these, over their size, is small, by medians along the angle where it is most.  Noise is further off than it is large.
+bool negatives_follow_neighbours(const Table&);
 
 }  // namespace gonio

@@ -41,8 +41,8 @@ void warn_of_negative_channel(TableFacts& facts, std::vector<std::string>& all) 
   if (!of) return;
   const Table& t = facts.table();
   all.push_back(fmt::format(
-      "all negative values are of channel {}: a colour outside the gamut, or an offset; noise "
-      "would show in all channels{}",
+      "all negative values are of channel {}: a colour outside the gamut, or an offset: "
+      "they follow their neighbours{}",
       t.channels[*of], without_channel(t, *of)));
 }
 
@@ -76,23 +76,17 @@ std::optional<std::size_t> negative_channel(TableFacts& facts) {
   const Table& t = facts.table();
   if (!t.negative_is_noise || t.values.size() < 2) return {};
   std::optional<std::size_t> of;
-  std::vector<double> sizes;
+  std::size_t count = 0;
   const SampleAngles at(t);
   for (std::size_t c = 0; c < t.values.size(); ++c)
     for (std::size_t i = 0; i < t.size(); ++i)
       if (t.values[c][i] < 0 && mask(at(i), t.values[c][i]) == Mask::negative) {
         if (of && *of != c) return {};
         of = c;
-        sizes.push_back(-t.values[c][i]);
+        ++count;
       }
   constexpr std::size_t few = 8;
-  if (sizes.size() < few) return {};
-  // What neighbours differ by, in the other channels: far less than such a floor.
-  std::vector<double> noise;
-  for (const auto& d : facts.noise_samples().all)
-    if (d.channel != *of) noise.push_back(std::abs(d.more) * t.values[d.channel][d.sample]);
-  if (noise.empty() || 3 * median(noise) > median(sizes)) return {};
-  return of;
+  return count >= few && negatives_follow_neighbours(t) ? of : std::nullopt;
 }
 
 std::vector<ValueWarning> value_warnings(TableFacts& facts) {

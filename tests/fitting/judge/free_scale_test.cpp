@@ -80,5 +80,42 @@ TEST(FreeScale, IsRefusedWhereAFactorIsNoneOfTheModels) {
   EXPECT_EQ(with_weights(free_scale("lambert")).model, "lambert");
 }
 
+TEST(FreeScale, LeavesWhatItChangesUnboundedWhereAModelLacksIt) {
+  for (const double scale : {1.0, 3.0}) {
+    Table t = synthesize(test::bind(schlick, "alpha=0.2,f0=0.05,kd=0.1", 1),
+                         {.layout = Layout::in_plane, .noise = 0.02});
+    t.truth = {};
+    scale_values(t, scale);
+    const FitDocument d = fit(t, {.model = schlick}).document;
+    EXPECT_EQ(d.misfit.told, scale > 1);
+    const auto& kd = parameter(d, "kd");
+    EXPECT_EQ(kd.status[0], scale > 1 ? ParameterStatus::unbounded : ParameterStatus::free);
+    if (scale > 1) {
+      EXPECT_HAS(kd.reason[0], "at another");
+      EXPECT_EQ(kd.ci95_high[0], 1);
+    }
+  }
+}
+
+TEST(FreeScale, WidensIntervalsOfAModelThatLacksIt) {
+  // A mirror that returns three times the light: its width makes up for some of it.
+  const BoundModel truth = test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.2,f0=0.7", 1);
+  for (const double scale : {1.0, 3.0}) {
+    Table t = synthesize(truth, {.layout = Layout::in_plane, .noise = 0.02});
+    t.truth = {};
+    scale_values(t, scale);
+    FitOptions o;
+    o.model = "ggx/smith_ggx.correlated/schlick";
+    const FitDocument d = fit(t, o).document;
+    const auto& alpha = parameter(d, "alpha");
+    EXPECT_EQ(d.misfit.told, scale > 1);
+    EXPECT_LE(alpha.ci95_low[0], 0.2) << scale;
+    EXPECT_GE(alpha.ci95_high[0], 0.2) << scale;
+    if (scale == 1) {
+      EXPECT_LT(alpha.ci95_high[0] - alpha.ci95_low[0], 0.01);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace gonio

@@ -666,5 +666,68 @@ TEST(LackOfFit, AccusesNoRightModelBesideNoiseThatWasClipped) {
   }
 }
 
+TEST(LackOfFit, TellsNoiseThatGrowsTowardsGrazingFromAWrongModel) {
+  const auto settings = "alpha=0.2,f0=0.05,kd=0.1";
+  const auto told = [&](const BoundModel& truth, unsigned seed) {
+    Table t;
+    t.format = "csv";
+    t.channels = {"f"};
+    DirectionList l;
+    for (const double in : {10, 30, 50, 70})
+      for (double out = -80; out <= 80; out += 10) {
+        l.theta_i_deg.push_back(in), l.phi_i_deg.push_back(0);
+        l.theta_o_deg.push_back(std::abs(out)), l.phi_o_deg.push_back(out < 0 ? 0 : 180);
+      }
+    t.where = std::move(l);
+    test::put_values(t, truth);
+    const SampleAngles at(t);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (std::size_t i = 0; i < t.size(); ++i)
+      t.values[0][i] *= std::exp(0.01 / at(i).nov * normal(random));
+    FitOptions o;
+    o.model = paint;
+    return fit(t, o).document.misfit.told;
+  };
+  const auto seeds = static_cast<unsigned>(test::few(20));
+  unsigned accused = 0, missed = 0;
+  for (unsigned seed = 1; seed <= seeds; ++seed) {
+    accused += told(test::bind(paint, settings, 1), seed);
+    missed +=
+        !told(test::bind("lambert+beckmann/smith_beckmann.correlated/schlick", settings, 1), seed);
+  }
+  EXPECT_EQ(accused, 0U);
+  EXPECT_EQ(missed, 0U);
+}
+
+TEST(LackOfFit, LimitsTheDiffuseTermOfOnlyTheChannelThatNoiseCovers) {
+  const auto truth = test::bind(paint, "alpha=0.2,f0=0.05,kd=0.004", 1);
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  test::put_on_goniometer(t, truth);
+  t.channels = {"r", "g", "b"};
+  t.values.resize(3, t.values[0]);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  for (auto& plane : t.values)
+    for (double& f : plane) f *= std::exp(0.01 * normal(random));
+  for (double& f : t.values[2]) f += 0.003 * normal(random);
+  FitOptions o;
+  o.model = paint;
+  const auto d = fit(t, o).document;
+  const auto& matte = test::parameter(d, "kd");
+  for (const std::size_t c : {0, 1}) {
+    EXPECT_EQ(matte.status[c], ParameterStatus::free) << c;
+    EXPECT_LE(matte.ci95_low[c], 0.004) << c;
+    EXPECT_GE(matte.ci95_high[c], 0.004) << c;
+  }
+  EXPECT_EQ(matte.status[2], ParameterStatus::upper_limit);
+  EXPECT_GT(matte.limit[2], 0.004);
+  EXPECT_TRUE(std::ranges::any_of(d.warnings, [](const auto& w) {
+    return w.starts_with("negative values of channel b betray a noise floor");
+  }));
+}
+
 }  // namespace
 }  // namespace gonio

@@ -31,7 +31,7 @@ TEST(ValueWarnings, SayThatValuesAreRoundedCoarsely) {
 TEST(ValueWarnings, SayThatZerosAreLeftOut) {
   const auto clipped =
       said_of(painted(180, 0.05), [](const auto& a, double f) { return a.nov < 0.3 ? 0 : f; });
-  EXPECT_TRUE(says(clipped, "values are 0, clipped noise"));
+  EXPECT_TRUE(says(clipped, "values are 0, shadow or clipped noise, which biases every metric"));
   const auto rounded = said_of(painted(180, 0.005, 0.15),
                                [](const auto&, double f) { return std::round(f * 1000) / 1000; });
   EXPECT_TRUE(says(rounded, "values are rounded to one digit or to 0"));
@@ -44,16 +44,40 @@ TEST(ValueWarnings, SayThatZerosAreLeftOut) {
 TEST(ValueWarnings, KnowHowLargeValuesAreThatNoiseTookAway) {
   const Table clean = painted(180, 0.005, 0.15);
   TableFacts of_clean(clean);
-  EXPECT_EQ(lost_below(of_clean), 0);
+  EXPECT_EQ(lost_below(of_clean), std::vector<double>{0});
   Table clipped = clean, rounded = clean;
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   for (double& f : clipped.values[0]) f = std::max(f + 0.003 * normal(random), 0.0);
   for (double& f : rounded.values[0]) f = std::round(f * 100) / 100;
   TableFacts of_clipped(clipped), of_rounded(rounded);
-  EXPECT_GT(lost_below(of_clipped), 0.002);
-  EXPECT_LT(lost_below(of_clipped), 0.008);
-  EXPECT_NEAR(lost_below(of_rounded), 0.005, 1e-6);
+  EXPECT_GT(lost_below(of_clipped)[0], 0.002);
+  EXPECT_LT(lost_below(of_clipped)[0], 0.008);
+  EXPECT_NEAR(lost_below(of_rounded)[0], 0.005, 1e-6);
+  EXPECT_FALSE(is_clipped(of_clean));
+  EXPECT_TRUE(is_clipped(of_clipped));
+  EXPECT_FALSE(is_clipped(of_rounded));
+}
+
+TEST(ValueWarnings, KnowWhichChannelNoiseTookValuesFrom) {
+  for (const bool clipped : {false, true}) {
+    Table t = painted(180, 0.005, 0.15);
+    t.channels = {"r", "g", "b"};
+    t.values.resize(3, t.values[0]);
+    std::mt19937_64 random(1);
+    std::normal_distribution<double> normal;
+    for (double& f : t.values[2]) {
+      f += 0.003 * normal(random);
+      if (clipped) f = std::max(f, 0.0);
+    }
+    TableFacts facts(t);
+    const auto lost = lost_below(facts);
+    EXPECT_EQ(lost[0], 0);
+    EXPECT_EQ(lost[1], 0);
+    EXPECT_GT(lost[2], 0.0015);
+    EXPECT_FALSE(facts.negative_channel()) << "noise is no gamut";
+    EXPECT_EQ(facts.noise_floor() > 0, !clipped);
+  }
 }
 
 TEST(ValueWarnings, SayThatADetectorWasFull) {
@@ -95,7 +119,8 @@ TEST(ValueWarnings, SayThatNoiseWasClippedToALeastValue) {
       return std::max(f + noise * normal(random), least);
     });
   };
-  EXPECT_TRUE(says(said(0.002, 1e-4), "are 0.0001, and none is less: clipped noise?"));
+  EXPECT_TRUE(says(said(0.002, 1e-4),
+                   "are 0.0001, and none is less: clipped noise? It biases every metric"));
   EXPECT_FALSE(says(said(0, 1e-4), "clipped noise?"));
   Table matt = painted(0);  // in plane, and computed: its base is shared
   test::put_values(matt, bind_model("oren_nayar", {{"kd", {0.5}}, {"sigma", {0.5}}}, 1));
