@@ -16,6 +16,7 @@
 #include "table/format/delimited.h"
 #include "table/format/formats.h"
 #include "table/format/metadata.h"
+#include "table/format/no_table.h"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -80,6 +81,7 @@ ColumnMap map_of(const ColumnsCall& o) {
 void expect_columns(InputFile& in) {
   const std::string head = in.peek(1 << 16);
   expect_no_utf16(in.path(), head);
+  expect_no_foreign_format(in.path(), head);
   if (!is_csv(head) && !looks_delimited(head, 2))
     throw bad_input(in.path(), "the beginning", head.substr(0, 24),
                     "text with a line of at least two numbers");
@@ -202,9 +204,14 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   expect_columns(in);
   const std::size_t skip = o.skip;
   const auto map = skip ? std::nullopt : known_map(file);
-  const auto columns = csv_columns(in, map ? map->skip : skip);
+  PassedOver above;
+  const auto columns = csv_columns(in, map ? map->skip : skip, &above);
   progress.clear();
   Json all = Json::array();
+  if (!o.json && above.lines > 0)
+    say("{}: passes over {}, '{}'{}\n", file, counted(above.lines, "line"),
+        printable(above.first, 40),
+        above.last == above.first ? "" : fmt::format(" to '{}'", printable(above.last, 40)));
   if (!o.json)
     say("{}\n{:<8}{:<24}{:>10}{:>14}{:>14}\n", file, "", "name", "different", "from", "to");
   for (std::size_t k = 0; k < columns.size(); ++k) {
@@ -240,6 +247,7 @@ Json show(const ColumnsCall& o, const std::string& file, Progress& progress) {
   }
   Json shown = Json::object();  // piece by piece: braces would copy what may be long
   shown["path"] = file;
+  shown["passed_over"] = above.lines;
   shown["file_columns"] = std::move(all);
   shown["columns"] = std::move(said);
   shown["proposal"] = std::move(proposed);

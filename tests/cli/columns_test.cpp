@@ -1,11 +1,14 @@
 // gonio columns: what a file's columns are is said once, and every command knows it from then on.
 #include <cmath>
 #include <functional>
+#include <random>
 #include <sstream>
+#include <tuple>
 
 #include "brdf/model/evaluate.h"
 #include "cli/program.h"
 #include "geometry/half_difference.h"
+#include "refusal.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -460,6 +463,92 @@ TEST(Columns, TellWrongWordsFromWrongFiles) {
        {"columns noise --radians", "noise: the beginning"},
        {"columns t.csv --radians --map theta_i=in theta_o=out f=brdf", "radians"}});
   EXPECT_EQ(f.entries(), 2U);
+}
+
+/// A table in one plane of a model's values with 1 % noise, that are no f.
+std::string in_plane_as(const char* model, const std::vector<Setting>& with, const Change& change) {
+  const BoundModel bound = bind_model(model, with, 1);
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> noise(0, 0.01);
+  std::string text = "theta_i,theta_o,f\n";
+  for (const int in : {10, 30, 50, 70})
+    for (int out = -80; out <= 80; out += 10) {
+      const auto a = angles(DirectionPair{direction(in * degree, 0),
+                                          direction(std::abs(out) * degree, out < 0 ? 0 : M_PI)});
+      const double f = evaluate(bound, std::vector{a})[0][0] * std::exp(noise(random));
+      text += fmt::format("{},{},{:.9g}\n", in, -out, change(f, a.nol, a.nov));
+    }
+  return text;
+}
+constexpr const char *dull_metal = "ggx/smith_ggx.correlated/schlick",
+                     *in_plane_paint = "lambert+ggx/smith_ggx.correlated/schlick";
+
+TEST(Columns, ThatAModelMissesAreMendedByTheCommandThatItsFitProposes) {
+  const std::vector<Setting> metal{{"alpha", {0.5}}, {"f0", {0.6}}},
+      paint{{"alpha", {0.25}}, {"f0", {0.05}}, {"kd", {0.3}}};
+  const Change both = [](double f, double i, double o) { return f * i * o; },
+               factor = [](double f, double, double) { return M_PI * f; },
+               neither = [](double f, double, double) { return f; };
+  for (const auto& [model, with, change, said] :
+       {std::tuple(dull_metal, metal, both, "f cos(theta_i) cos(theta_o)"),
+        {dull_metal, metal, factor, "radiance factors"},
+        {in_plane_paint, paint, factor, "radiance factors"},
+        {in_plane_paint, paint, neither, ""},
+        {dull_metal, metal, neither, ""}}) {
+    SCOPED_TRACE(fmt::format("{} as {}", model, said));
+    const Folder f;
+    f.write("t.csv", in_plane_as(model, with, change));
+    const std::string fit = std::string("fit t.csv --json --model ") + model;
+    const auto missed = gonio(f, fit).json();
+    const std::string proposed = missed["next"].empty() ? "" : missed["next"][0];
+    EXPECT_EQ(missed["misfit"]["told"], *said != 0);
+    EXPECT_EQ(proposed.starts_with(fmt::format("values may be {}: read so,", said)), *said != 0)
+        << proposed;
+    if (!*said) continue;
+    ASSERT_EQ(run_printed(f, command_in(proposed, "values may be")), 0) << proposed;
+    const auto mended = gonio(f, fit).json();
+    EXPECT_EQ(mended["misfit"]["told"], false);
+    EXPECT_NEAR(mended["parameters"]["alpha"]["value"].get<double>(), with[0].values[0], 0.02);
+    EXPECT_NEAR(mended["parameters"]["f0"]["value"].get<double>(), with[1].values[0], 0.02);
+  }
+}
+
+TEST(Columns, OfAnyScaleAreFittedAsTheirFitProposes) {
+  const Folder f;
+  f.write("t.csv", in_plane_as(in_plane_paint, {{"alpha", {0.25}}, {"f0", {0.05}}, {"kd", {0.3}}},
+                               [](double value, double, double) { return 0.01 * value; }));
+  const std::string fit = std::string("fit t.csv --json --model ") + in_plane_paint;
+  const auto missed = gonio(f, fit).json();
+  EXPECT_EQ(missed["misfit"]["told"], true);
+  ASSERT_TRUE(missed["next"][0].get<std::string>().starts_with("--scale free ")) << missed["next"];
+  const auto mended = gonio(f, fit + " --scale free").json();
+  EXPECT_EQ(mended["misfit"]["told"], false);
+  EXPECT_NEAR(mended["parameters"]["alpha"]["value"].get<double>(), 0.25, 0.02);
+  EXPECT_NEAR(mended["parameters"]["f0"]["value"].get<double>(), 0.05, 0.02);
+}
+
+TEST(Columns, ArePassedOverUpToTheTableAndSaySo) {
+  const Folder f;
+  f.write("t.csv", "Instrument 7\nby night\n\nin,out,brdf\n10,20,1\n10,30,2\n10,40,2\n");
+  for (const char* skip : {"", " --skip 1"}) {
+    EXPECT_HAS(gonio(f, std::string("columns t.csv") + skip).out,
+               "t.csv: passes over 3 lines, 'Instrument 7' to 'by night'\n");
+    EXPECT_EQ(gonio(f, std::string("columns t.csv --json") + skip).json()["passed_over"], 3);
+  }
+  f.write("t.csv", "theta_i,theta_o,f\n10,20,1\n");
+  EXPECT_EQ(gonio(f, "columns t.csv --json").json()["passed_over"], 0);
+  EXPECT_EQ(gonio(f, "columns t.csv").out.find("passes over"), std::string::npos);
+}
+
+TEST(Columns, OfWhatIsNoTableAreRefusedByItsName) {
+  const Folder f;
+  f.write("fit.json", R"({"schema": "gonio.fit/1", "numbers": [1, 2, 3]})");
+  f.write("t.xlsx", std::string("PK\x03\x04 xl/ 1 2 3\n"));
+  f.write("t.html", "<html>\n1 2 3\n");
+  expect_one_line_each(f, 3,
+                       {{"columns fit.json", "a document of schema gonio.fit/1"},
+                        {"columns t.xlsx", "an Excel workbook"},
+                        {"columns t.html", "a web page"}});
 }
 
 }  // namespace

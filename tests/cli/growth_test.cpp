@@ -24,22 +24,30 @@ double instructions(const Folder& f, const std::string& words) {
 }
 
 /// The step from 2 n to 4 n costs twice the step from n to 2 n where the work is linear, and four times where it is quadratic.
-void expect_linear(const std::function<void(const Folder&, int)>& write,
-                   const std::string& words,
-                   int n) {
+void expect_linear_work(const std::function<std::string(const Folder&, int)>& words_of, int n) {
   if (std::system("valgrind --version >/dev/null 2>&1") != 0)
     GTEST_SKIP() << "valgrind, which counts instructions, is not there";
 #ifdef __SANITIZE_ADDRESS__
   GTEST_SKIP() << "valgrind runs no program that has the sanitizer";
 #endif
   const Folder f;
-  const auto work = [&](int k) {
-    write(f, k);
-    return instructions(f, words);
-  };
+  const auto work = [&](int k) { return instructions(f, words_of(f, k)); };
   const double one = work(n), two = work(2 * n), four = work(4 * n);
   EXPECT_GT(two, one) << "the size is seen";
   EXPECT_LT(four - two, 2.8 * (two - one)) << one << " " << two << " " << four;
+}
+void expect_linear(const std::function<void(const Folder&, int)>& write,
+                   const std::string& words,
+                   int n) {
+  expect_linear_work(
+      [&](const Folder& f, int k) {
+        write(f, k);
+        return words;
+      },
+      n);
+}
+void expect_linear_words(const std::function<std::string(int)>& words, int n) {
+  expect_linear_work([&](const Folder&, int k) { return words(k); }, n);
 }
 
 std::string repeated(int n, const std::function<std::string(int)>& text) {
@@ -192,6 +200,57 @@ TEST(Growth, OfTrianglesThatNearlyCoincideIsLinear) {
                 scene_of(R"({"shape": "mesh", "gltf": "g.gltf", "node": "n", "material": "m"})"));
       },
       "render s.json --width 4 --height 4 --samples 1 --jobs 1 -o p.exr", 2000);
+}
+
+/// Specs that differ, of models that exist.
+std::string specs(int n) {
+  constexpr const char *diffuse[] = {"lambert", "eon", "oren_nayar", "disney", "lambert.coupled"},
+                       *ndf[] = {"ggx", "beckmann", "gtr"},
+                       *fresnel[] = {"schlick", "dielectric", "conductor", "schlick.f90",
+                                     "schlick.weighted"};
+  return repeated(n, [&](int i) {
+    std::string spec = std::string(i ? "," : "") + diffuse[i % 5];
+    for (int k = 1 + i / 5, lobe = 0; lobe == 0 || k > 0; k /= 15, ++lobe)
+      spec += std::string("+") + ndf[k % 3] + "/smith_ggx.correlated/" + fresnel[k / 3 % 5];
+    return spec;
+  });
+}
+
+TEST(Growth, OfModelsThatAreAskedIsLinear) {
+  expect_linear_words([](int n) { return "fit none.csv --models " + specs(n); }, 150);
+}
+
+TEST(Growth, OfBoundsThatAreTooManyIsLinear) {
+  expect_linear_words(
+      [](int n) {
+        return "fit none.csv --bounds" +
+               repeated(n, [](int i) { return " a" + std::to_string(i) + "=0,1"; });
+      },
+      1000);
+}
+
+TEST(Growth, OfAMaskThatIsTooLongIsLinear) {
+  expect_linear_words(
+      [](int n) {
+        return "inspect none.csv --mask 'f > 1" +
+               repeated(n, [](int i) { return " or theta_o > " + std::to_string(i); }) + "'";
+      },
+      1000);
+}
+
+TEST(Growth, OfColumnsUnderPatternsIsLinear) {
+  expect_linear(
+      [](const Folder& f, int n) {
+        f.write("t.csv", "theta_i,theta_o" +
+                             repeated(n, [](int i) { return ",c" + std::to_string(i); }) +
+                             "\n30,20" + repeated(n, [](int) { return ",0.1"; }) + "\n");
+      },
+      "columns t.csv --map" + repeated(60,
+                                       [](int i) {
+                                         const auto k = std::to_string(i);
+                                         return " f_a" + k + "_*=c" + k + "*";
+                                       }),
+      2000);
 }
 
 }  // namespace

@@ -524,9 +524,10 @@ Table read_directions_csv(InputFile& in) {
   return CsvReader(in, nullptr, false).table();
 }
 
-std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip) {
+std::vector<ColumnSummary> csv_columns(InputFile& in, std::size_t skip, PassedOver* passed_over) {
   const Text text = text_of(in);
   Delimited lines(in.path(), view(text), skip);
+  if (passed_over) *passed_over = lines.passed_over();
   std::vector<ColumnSummary> all;
   for (const auto& name : lines.names()) all.push_back({name});
   std::vector<std::set<std::string, std::less<>>> entries(all.size());

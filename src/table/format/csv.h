@@ -13,6 +13,7 @@
 
 #include "base/file.h"
 #include "table/format/column_map.h"
+#include "table/format/delimited.h"
 #include "table/table.h"
 
 namespace gonio {
@@ -42,6 +43,6 @@ struct ColumnSummary {
                              ///< thousands of columns
   std::optional<double> first = {};  ///< number of the first row
 };
-std::vector<ColumnSummary> csv_columns(InputFile&, std::size_t skip = 0);
+std::vector<ColumnSummary> csv_columns(InputFile&, std::size_t skip = 0, PassedOver* = nullptr);
 
 }  // namespace gonio

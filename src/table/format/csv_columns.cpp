@@ -7,11 +7,11 @@
 #include <span>
 
 #include "base/error.h"
+#include "base/few.h"
 #include "base/numbers.h"
 #include "table/format/in_memory.h"
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 namespace gonio {
 namespace {
@@ -313,7 +313,7 @@ class Chooser {
   std::string listed() const {
     std::vector<std::string> labels;
     for (std::size_t k = 0; k < lines_.names().size(); ++k) labels.push_back(lines_.label(k));
-    return fmt::format("{}", fmt::join(labels, ", "));
+    return few_of(labels);
   }
 
   bool has(std::string_view role) const { return made_.has(role); }

@@ -249,11 +249,17 @@ void expect_no_utf16(const std::string& file, std::string_view head) {
 Delimited::Delimited(std::string path, std::string_view text, std::size_t skip)
     : path_(std::move(path)), rest_(without_mark(text)), line_end_(line_end_of(text)) {
   expect_no_utf16(path_, text);
-  if (skip == 0) skip = lines_above(rest_);
-  for (; skip > 0 && !rest_.empty(); --skip) {
-    ++line_number_;
-    next_of(rest_, line_end_);
-  }
+  auto& [lines, first, last] = passed_over_;
+  const auto pass_over = [&](std::size_t more) {
+    for (; more > 0 && !rest_.empty(); --more, ++lines)
+      if (const auto line = next_of(rest_, line_end_); !line.empty()) {
+        if (first.empty()) first = line;
+        last = line;
+      }
+  };
+  pass_over(skip);
+  pass_over(lines_above(rest_));
+  line_number_ = lines;
   header();
 }
 

@@ -36,13 +36,20 @@ std::vector<std::string> comma_fields(std::string_view);
 /// Refuses text in UTF-16, with or without a byte-order mark, by name.  \param file  named in errors
 void expect_no_utf16(const std::string& file, std::string_view head);
 
+/// Lines above the names that are passed over: how many, and the first and the last that say something.
+struct PassedOver {
+  std::size_t lines = 0;
+  std::string first, last;
+};
+
 /// Line by line.  The text must outlive it.
 class Delimited {
  public:
-  /// Passes over `skip` lines, then reads the names; where skip is 0, over the lines of words above them.
+  /// Passes over `skip` lines and over lines of words above the table, then reads the names.
   /// \param path  named in errors.  UTF-16 and a quote that does not end are errors.
   Delimited(std::string path, std::string_view text, std::size_t skip = 0);
 
+  const PassedOver& passed_over() const { return passed_over_; }
   /// One a column, with the blanks that it has in quotes; all "" where there is no line of names.
   const std::vector<std::string>& names() const { return names_; }
   /// Goes to the next line; one that has more or fewer fields than there are columns is an error.
@@ -70,6 +77,7 @@ class Delimited {
   void header();
   std::string path_;
   std::string_view rest_, line_, comment_;
+  PassedOver passed_over_;
   std::size_t line_number_ = 0;
   std::size_t lines_ = 1;  ///< that the record takes
   char line_end_, separator_ = 0;

@@ -13,6 +13,7 @@
 #include "base/sha256.h"
 #include "table/format/delimited.h"
 #include "table/format/metadata.h"
+#include "table/format/no_table.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -70,42 +71,6 @@ std::string one_of(std::string_view Format::*name, bool (*those)(const Format&))
   const auto last = names.back();
   names.pop_back();
   return fmt::format("{} or {}", fmt::join(names, ", "), last);
-}
-
-/// Kinds of file that are no table for gonio and that their first bytes, or a word of theirs, name.
-constexpr std::pair<std::string_view, std::string_view> foreign_beginnings[]{
-    {"{", "JSON"},
-    {"[", "JSON"},
-    {"PK\x03\x04", "a spreadsheet, or another ZIP archive"},
-    {"\xd0\xcf\x11\xe0", "a spreadsheet of old Excel"},
-    {"<", "XML that is no BSDF of a WindowElement"},
-    {"OPTIS -", "a BSDF of Speos"},
-    {"DataType:", "a BSDF file that begins with DataType:"}};
-
-void expect_no_foreign_format(const std::string& path, std::string_view head) {
-  std::string begin;  // with one blank for many
-  for (const char c : head.substr(0, 4096)) {
-    const bool blank = c == ' ' || c == '\t' || c == '\r' || c == '\n';
-    if (!blank || (!begin.empty() && begin.back() != ' ')) begin += blank ? ' ' : c;
-  }
-  // A binary table may begin with any byte.
-  const bool text =
-      std::ranges::none_of(begin, [](unsigned char c) { return c < 0x20 || c == 0x7f; });
-  if (const auto own = begin.find("\"schema\": \"gonio.");
-      text && begin.starts_with("{") && own != begin.npos) {
-    const auto from = own + std::string_view("\"schema\": \"").size();
-    const auto schema = begin.substr(from, begin.find('"', from) - from);
-    throw bad_input(path, "the beginning", "a document of schema " + schema,
-                    schema.starts_with("gonio.stack/")
-                        ? "a table; `gonio fit_map` fits a stack of images"
-                        : "a table");
-  }
-  for (const auto& [first, kind] : foreign_beginnings)
-    if (((text || first.size() == 4) && begin.starts_with(first)) ||
-        (text && first.size() > 6 &&
-         begin.find(std::string(" ") + std::string(first)) != begin.npos))
-      throw bad_input(path, "the beginning", std::string(kind),
-                      "a table: save it as CSV with theta_i, phi_i, theta_o, phi_o and f");
 }
 
 Table read_by_format(InputFile& in, const ColumnMap* map) {
