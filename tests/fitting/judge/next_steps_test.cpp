@@ -281,6 +281,36 @@ TEST(NextSteps, TakeADiffuseTermForNoPresetOfItsName) {
   EXPECT_FALSE(std::isnan(d.parameters.front().value[0]));
 }
 
+TEST(NextSteps, AdviseNoMetricWhereDarkNoiseWasClipped) {
+  FitDocument d;
+  d.model = paint;
+  d.solver.termination = "converged";
+  FitFacts f;
+  f.dark_bias = 0.05;
+  EXPECT_EQ(next_steps({}, d, f, none_fits).size(), 1U);
+  f.clipped = true;
+  EXPECT_TRUE(next_steps({}, d, f, none_fits).empty()) << "it biases each of them";
+}
+
+TEST(NextSteps, NameAUnitOnlyWhereNoModelLeavesLess) {
+  FitDocument d;
+  d.model = paint;
+  d.solver.termination = "converged";
+  d.misfit.told = true;
+  d.misfit.size = 0.2;
+  const auto first = [&](double of_models) {
+    const auto all = next_steps(
+        {}, d, {}, [&](const std::string& spec) { return spec == paint ? 0.2 : of_models; },
+        [](double) {
+          return OtherUnit{"values may be counts", 0.02};
+        });
+    return all.empty() ? "" : all[0];
+  };
+  EXPECT_EQ(first(0.19), "values may be counts");
+  EXPECT_EQ(first(0.02), "values may be counts");
+  EXPECT_TRUE(first(0.01).starts_with("--model "));
+}
+
 TEST(NextSteps, KnowWhatFewerLobesDo) {
   FitDocument d;
   d.model = "lambert+ggx/smith_ggx.correlated/schlick+ggx/smith_ggx.correlated/schlick";
