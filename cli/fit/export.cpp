@@ -65,12 +65,13 @@ Exit run_map(const ExportCall& o) {
     throw wrong_usage(fmt::format("--to {}: a map is written for gltf, open_pbr and usd_preview",
                                   name_of(o.target)));
   const fs::path output(o.output);
+  const std::string stem = output.stem().string();
   if (o.target != ExportTarget::gltf &&
-      output.stem().string().find_first_of("\"<>&'@{}") != std::string::npos)
-    throw wrong_usage(
-        fmt::format("-o {}: textures are named after it; expected a name without "
-                    "quotes, brackets, & and @",
-                    printable(o.output, 100)));
+      (stem.find_first_of("\"<>&'@{}") != std::string::npos || printable(stem) != stem))
+    throw wrong_usage(fmt::format(
+        "-o {}: textures are named after it; expected a name of letters that can be seen, without "
+        "quotes, brackets, & and @",
+        printable(o.output, 100)));
   OutputFile out(o.output);
   Progress progress(o.quiet);
   progress("exporting");

@@ -21,6 +21,7 @@
 #include "stack/stack_reader.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 namespace gonio::cli {
 namespace {
@@ -38,11 +39,11 @@ struct ImagesInCommon {
   Rectangle size;
   bool in_unit_range = true;  ///< their numbers go from 0 to 1
 };
-/// Opens each image and frame, which refuses those that are not light or of another size than the first.
+/// Opens each image and frame, which refuses those that are not light, of another size than the first or of other channels.
 ImagesInCommon look_at_all(const Stack& s) {
   ImagesInCommon all;
   Rectangle& size = all.size;
-  std::vector<std::string> paths;
+  std::vector<std::string> paths, channels;
   for (const auto& image : s.images) paths.push_back(image.path);
   for (const auto& frame : {s.dark, s.flat})
     if (frame) paths.push_back(*frame);
@@ -50,6 +51,11 @@ ImagesInCommon look_at_all(const Stack& s) {
     const auto file = open_image(s.path_of(path), s.linear);
     if (size.width == 0) size = {0, 0, file->width(), file->height()};
     expect_size_of(paths[0], size.width, size.height, *file);
+    if (channels.empty()) channels = file->channels();
+    if (file->channels() != channels)
+      throw bad_input(s.path_of(path), "channels",
+                      fmt::format("{}", fmt::join(file->channels(), " ")),
+                      fmt::format("{}, as {} has", fmt::join(channels, " "), paths[0]));
     const bool is_frame = path == s.dark || path == s.flat;
     all.in_unit_range = all.in_unit_range && (is_frame || file->in_unit_range());
   }

@@ -65,7 +65,8 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
                     in_percent(t.quantile), m.checked.samples, unit_of(t),
                     rounded_up(m.checked.upper, m.holds ? 2 : 3), rounded_up(m.checked.worst)));
     if (const double part = m.reference_error; part >= 0.1 * m.checked.upper)
-      say("          up to {} of that may be the reference's own error\n", rounded_up(part));
+      say("          up to {} of that may be the reference's own error\n",
+          rounded_up(part, m.holds ? 2 : 3));
   } else {
     say_below(
         "  check   ",

@@ -25,6 +25,7 @@
 #include "image/exr.h"
 #include "image/png.h"
 #include "stack/parameter_image.h"
+#include "table/table.h"
 
 #include <fmt/format.h>
 #include <tbb/parallel_for.h>
@@ -342,11 +343,15 @@ MapExport export_map(const std::string& path,
     if (attribute("gonio:shaders").find(f.sha256) == std::string::npos)
       throw bad_input(path, "gonio:shaders", "another text of " + f.file,
                       "the one that the map was fitted with");
-  const auto names = attribute("gonio:channels");
-  const BoundModel start = bind_model(model, {}, split(std::string_view(names), ',').size());
   e.width = header.width;
   e.height = header.height;
   const std::size_t texels = e.width * e.height;
+  const auto channels = split(attribute("gonio:channels"), ',').size();
+  if (channels > most_channels || texels * channels > 3 * most_texels)
+    throw bad_input(
+        path, "gonio:channels", fmt::format("{} channels", channels),
+        fmt::format("at most {}, and {} values of all texels", most_channels, 3 * most_texels));
+  const BoundModel start = bind_model(model, {}, channels);
 
   auto seen = sample_of(start, path, texels);
   const double strongest = strongest_highlight(start, seen);

@@ -35,18 +35,30 @@ namespace {
 constexpr std::uint64_t most_directory_bytes = std::uint64_t{1} << 24,
                         most_packed_together = std::uint64_t{1} << 27;
 
-/// Bytes that the entries of the first directory have in all.  libtiff keeps what each of them claims to be, even where many claim the same bytes
-/// of the file: more than `most_directory_bytes`, or 1000 entries, are refused.
-std::uint64_t directory_bytes(const InputFile& in) {
-  const auto number = [&](std::uint64_t at, std::size_t n) {
-    std::array<unsigned char, 8> bytes{};
-    char order = 0;
-    in.read_at(0, &order, 1);
-    in.read_at(at, bytes.data(), n);
-    std::uint64_t v = 0;
-    for (std::size_t k = 0; k < n; ++k) v = v << 8U | bytes[order == 'I' ? n - 1 - k : k];
-    return v;
+std::uint64_t number_at(const InputFile& in, std::uint64_t at, std::size_t n) {
+  std::array<unsigned char, 8> bytes{};
+  char order = 0;
+  in.read_at(0, &order, 1);
+  in.read_at(at, bytes.data(), n);
+  std::uint64_t v = 0;
+  for (std::size_t k = 0; k < n; ++k) v = v << 8U | bytes[order == 'I' ? n - 1 - k : k];
+  return v;
+}
+
+/// What the first directory says, where libtiff mends what it does not say.
+struct Directory {
+  struct Numbers {
+    std::uint64_t count = 0, at = 0;
+    std::size_t size = 1;
   };
+  std::uint64_t bytes = 0;  ///< of all entries
+  Numbers offsets, counts;  ///< of strips or tiles
+};
+
+/// Reads the first directory.  libtiff keeps what each entry claims to be, even where many claim the same bytes of the file: more than
+/// `most_directory_bytes`, or 1000 entries, are refused.
+Directory directory_of(const InputFile& in) {
+  const auto number = [&](std::uint64_t at, std::size_t n) { return number_at(in, at, n); };
   const bool big = number(2, 2) == TIFF_VERSION_BIG;
   const std::size_t word = big ? 8 : 4, before = big ? 8 : 2;
   const std::uint64_t begin = number(word, word), entries = number(begin, before);
@@ -54,29 +66,34 @@ std::uint64_t directory_bytes(const InputFile& in) {
   if (entries > most_entries)
     throw bad_input(in.path(), "directory", fmt::format("{} entries", entries),
                     fmt::format("at most {}", most_entries));
-  std::uint64_t sum = 0;
+  Directory d;
   for (std::uint64_t k = 0; k < entries; ++k) {
-    const std::uint64_t at = begin + before + k * (4 + 2 * word), type = number(at + 2, 2),
-                        count = number(at + 4, word);
-    const std::uint64_t size = type == 1 || type == 2 || type == 6 || type == 7     ? 1
-                               : type == 3 || type == 8                             ? 2
-                               : type == 4 || type == 9 || type == 11 || type == 13 ? 4
-                                                                                    : 8;
-    sum += count > most_directory_bytes ? count : count * size;
-    if (sum > most_directory_bytes)
-      throw bad_input(in.path(), "directory",
-                      fmt::format("tag {} of {} numbers", number(at, 2), count),
+    const std::uint64_t at = begin + before + k * (4 + 2 * word), tag = number(at, 2),
+                        type = number(at + 2, 2), count = number(at + 4, word);
+    const std::size_t size = type == 1 || type == 2 || type == 6 || type == 7     ? 1
+                             : type == 3 || type == 8                             ? 2
+                             : type == 4 || type == 9 || type == 11 || type == 13 ? 4
+                                                                                  : 8;
+    if (count > (most_directory_bytes - d.bytes) / size)
+      throw bad_input(in.path(), "directory", fmt::format("tag {} of {} numbers", tag, count),
                       fmt::format("at most {} bytes of all tags: save the image without layers",
                                   most_directory_bytes));
+    d.bytes += count * size;
+    const std::uint64_t value = at + 4 + word;
+    const Directory::Numbers numbers{count, count * size > word ? number(value, word) : value,
+                                     size};
+    if (tag == TIFFTAG_STRIPOFFSETS || tag == TIFFTAG_TILEOFFSETS) d.offsets = numbers;
+    if (tag == TIFFTAG_STRIPBYTECOUNTS || tag == TIFFTAG_TILEBYTECOUNTS) d.counts = numbers;
   }
-  return sum;
+  return d;
 }
 
 class TiffFile final : public ImageFile {
  public:
   TiffFile(const std::string& path, bool linear) : ImageFile(path), in_(path) {
     constexpr std::uint64_t few = 1 << 16;
-    held_ = 2 * directory_bytes(in_) + few;
+    const Directory directory = directory_of(in_);
+    held_ = 2 * directory.bytes + few;
     open();
     const auto field = [&](std::uint32_t tag, auto value) {
       TIFFGetFieldDefaulted(tiff_.get(), tag, &value);
@@ -131,8 +148,24 @@ class TiffFile final : public ImageFile {
         is_tiled_ ? TIFFNumberOfTiles(tiff_.get()) : TIFFNumberOfStrips(tiff_.get());
     constexpr std::uint32_t most_blocks = 1 << 20;
     expect(blocks <= most_blocks, fmt::format("{} strips or tiles", blocks));
-    for (std::uint32_t k = 0; k < blocks; ++k)
+    if (directory.offsets.count < blocks || directory.counts.count < blocks)
+      throw bad_input(path_, "directory",
+                      fmt::format("{} places and {} sizes of strips or tiles",
+                                  directory.offsets.count, directory.counts.count),
+                      fmt::format("{} of each", blocks));
+    const std::size_t down = (height_ + block_height_ - 1) / block_height_;
+    for (std::uint32_t k = 0; k < blocks; ++k) {
       packed = std::max(packed, TIFFGetStrileByteCount(tiff_.get(), k));
+      if (packing != COMPRESSION_NONE) continue;
+      const std::size_t rows_there =
+          is_tiled_ ? block_height_ : std::min(block_height_, height_ - k % down * block_height_);
+      const std::uint64_t need = bytes / block_height_ * rows_there,
+                          there = number_at(in_, directory.counts.at + k * directory.counts.size,
+                                            directory.counts.size);
+      if (there < need)
+        throw bad_input(path_, fmt::format("{} {}", is_tiled_ ? "tile" : "strip", k),
+                        fmt::format("{} bytes", there), fmt::format("{}", need));
+    }
     if (bytes > most_packed_together || packed > 2 * bytes + few)
       throw bad_input(path_, "header",
                       fmt::format("strips or tiles of {} bytes, packed in up to {}", bytes, packed),

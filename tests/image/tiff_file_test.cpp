@@ -203,6 +203,30 @@ TEST(TiffFile, ThatClaimsMoreThanItHasIsRefusedBeforeItIsRead) {
   EXPECT_HAS(test::refusal([&] { open_image(f / "a.tif", true); }), "tag 301 of 100000000 numbers");
 }
 
+TEST(TiffFile, WhoseStripsAreNotAllThereIsRefused) {
+  // What libtiff takes for pixels otherwise is what lies behind in the file.
+  const Folder f;
+  const auto said = [&](const TiffImage& t) {
+    f.write("a.tif", tiff_of(t));
+    return test::refusal([&] { open_image(f / "a.tif", true); });
+  };
+  EXPECT_EQ(said({}), "");
+  EXPECT_HAS(said({.other_tags = {{{273, 4, 8}}}}), "found 1 places and 2 sizes");
+  EXPECT_HAS(said({.other_tags = {{{279, 4, 90}}}}), "found 2 places and 1 sizes");
+  EXPECT_HAS(said({.rows_per_strip = 4, .other_tags = {{{279, 4, 60}}}}),
+             "strip 0: found 60 bytes, expected 120");
+}
+
+TEST(TiffFile, WhoseTagsCountBeyondEveryNumberIsRefused) {
+  // A BigTIFF of one tag: a sum of counts that wraps around would let others pass.
+  std::string bytes("II+\0\x08\0\0\0\x10\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0", 24);
+  bytes += std::string("\xe8\xfd\x01\0", 4) + std::string(8, '\xff') + std::string(16, '\0');
+  const Folder f;
+  f.write("a.tif", bytes);
+  EXPECT_HAS(test::refusal([&] { open_image(f / "a.tif", true); }),
+             "tag 65000 of 18446744073709551615 numbers");
+}
+
 TEST(TiffFile, ThatIsDamagedIsReadOrRefusedAtEveryByteWithoutAWordOfLibtiffs) {
   const Folder f;
   testing::internal::CaptureStderr();

@@ -163,16 +163,15 @@ struct Description<scene::MaterialPlan> {
               "where no walk is known "
               "another, without bound",
               or_default),
-        field("shipped_error_upper", &M::shipped_upper,
-              "least error_upper of a compensation that shaders have, all else exact", amounts,
-              or_default),
+        field("shipped_error_upper", if_there(&M::shipped_upper),
+              "least error_upper of a compensation that shaders have, all else exact", amounts),
         field("shipped_error_quantile", &M::shipped_quantile,
               "least error_if_dropped among those compensations: without the reference's own error",
               amounts, or_default),
-        field("reference_error", &M::reference_error,
+        field("reference_error", if_there(&M::reference_error),
               "quantile of two standard errors of the reference on the same points: in the "
               "differences",
-              amounts, or_default),
+              amounts),
         field("holds", &M::holds, "the tolerance; else this is the nearest plan"),
         field(
             "error_upper", if_there(checked(&Judgement::upper)),

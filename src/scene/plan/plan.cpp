@@ -607,7 +607,7 @@ void name_all(Plan& plan, const Lit& lit) {
 /// Nothing is claimed beyond what was compared: nobody knows how far that is off.
 void claim_no_bound(MaterialPlan& m) {
   constexpr double none = std::numeric_limits<double>::infinity();
-  m.checked.upper = m.checked.bound = none;
+  m.checked.upper = m.checked.bound = m.reference_error = m.shipped_upper = none;
   if (m.failed) m.failed->error.bound = none;
   for (auto& c : m.front) {
     c.error.upper = none;
