@@ -380,7 +380,7 @@ double Delimited::number(std::size_t column) {
   saw_points_ = saw_points_ || field.find('.') != field.npos;
   saw_commas_ = saw_commas_ || field.find(',') != field.npos;
   if (saw_points_ && saw_commas_)
-    fail(label(column), in_quotes(field), "decimal points or decimal commas, not both");
+    fail(label(column), field, "decimal points or decimal commas, not both");
   return *v;
 }
 
