@@ -25,6 +25,8 @@ namespace {
 
 constexpr Numbers shares{0, 1}, amounts{0, Numbers::any};
 constexpr Entries few{1, 64}, parameters{0, 100};
+/// A usual name of shaders for what an artist sets.
+constexpr std::string_view shader_roughness = "perceptualRoughness";
 
 }  // namespace
 
@@ -234,9 +236,31 @@ bool has(const std::vector<Setting>& all, std::string_view name) {
   return std::ranges::find(all, name, &Setting::name) != all.end();
 }
 
+/// True of a width's name, whatever its case: a shader's Roughness is one.
+bool is_width(std::string_view name) {
+  return std::ranges::any_of(width_names, [&](auto w) { return same_letters(w, name); }) ||
+         same_letters(name, shader_roughness);
+}
+
+/// Letters of a name without those that only separate words: base_color is a shader's baseColor.
+std::string joined(std::string_view name) {
+  std::string s;
+  for (const char c : name)
+    if (c != '_') s += lower_case(c);
+  return s;
+}
+/// The model's parameter of these letters, of a colour that it mixes without the channel; empty where there is none.
+std::string of_letters(const Model& m, std::string_view name) {
+  for (const auto& p : m.parameters) {
+    const auto known = p.name.ends_with("_r") ? p.name.substr(0, p.name.size() - 2) : p.name;
+    if (joined(known) == joined(name)) return known;
+  }
+  return "";
+}
+
 /// True where the domain gives each substance, or each roughness, what the name sets.
 bool is_of_domain(const Choice::Domain& d, std::string_view name) {
-  if (std::ranges::find(width_names, name) != std::end(width_names)) return d.roughness.has_value();
+  if (is_width(name)) return d.roughness.has_value();
   const bool of_surface = d.eta || d.f0 || !d.metals.empty();
   return of_surface && (name == "f0" || name == "eta" || name == "k" || name == "metal");
 }
@@ -299,14 +323,25 @@ void share_parameters(const JsonReader& root, Choice& c) {
   if (!c.has_reference) return;
   demand("reference_parameters", c.reference, others);
   const auto shared = taken_by(c.reference);
-  demand("parameters", c.reference, shared);
+  auto demanded = shared;
+  if (has(own, "metallic") && !has(shared, "base_color"))  // a shader's own, beside its baseColor
+    std::erase_if(demanded, [](const Setting& s) { return s.name == "metallic"; });
+  demand("parameters", c.reference, demanded);
   for (const auto& s : shared) {
-    if (has(others, s.name) || (is_of_domain(c.domain, s.name) && has(own, s.name))) continue;
+    const bool is_own = has(own, s.name);
+    const auto at = root.at("parameters").at(s.name);
+    const auto known = is_own ? "" : of_letters(c.shipped.composed(), s.name);
+    if (!known.empty() && !has(own, known))
+      at.fail(fmt::format("{}, as {} has it", known, c.shipped.model));
+    const bool is_set = has(others, s.name);
+    if (is_own && (is_set || is_of_domain(c.domain, s.name))) continue;
     others.push_back(s);
-    if (try_binding(c.reference, others).empty())
+    if (!is_set && try_binding(c.reference, others).empty()) {
       c.reference.parameters.emplace_back(s.name, GivenParameter{s.values, s.text});
-    else  // the reference sets the same by another name
-      others.pop_back();
+      continue;
+    }
+    others.pop_back();  // the reference sets the same, maybe by another name
+    if (!is_own) at.fail("a parameter that reference_parameters does not set otherwise");
   }
 }
 
@@ -328,10 +363,10 @@ void check_reach(const JsonReader& root, const Choice& c) {
   if (c.domain.roughness)
     for (const auto& s : c.substances) {
       if (reaches(s, 0.3, s, 0.6)) continue;
-      for (const auto name : width_names) {
-        if (sets(c.shipped.parameters, name)) refuse("roughness", name, "parameters");
+      for (const auto& p : c.shipped.parameters)
+        if (is_width(p.first)) refuse("roughness", p.first, "parameters");
+      for (const auto name : width_names)
         if (has(s.settings, name)) refuse("roughness", name, s.name);
-      }
     }
   const auto &first = c.substances.front(), &last = c.substances.back();
   if (has_range(c) && first.name != last.name && !reaches(first, 0.5, last, 0.5))
@@ -435,6 +470,9 @@ void add_width(std::vector<Setting>& settings, const Shipped& s, const Model& m,
                        : s.alpha == AlphaMap::square ? roughness * roughness
                                                      : std::pow(roughness, 4);
   const auto sets_own = [&](const Parameter& p) { return has(settings, p.name); };
+  const auto set = [&](std::string name, double value) {
+    if (!has(settings, name)) settings.push_back({std::move(name), {value}});
+  };
   if (const Preset* preset = find_preset(s.model);
       preset && std::ranges::any_of(preset->parameters, sets_own))
     settings.push_back({"roughness", {std::sqrt(alpha)}});
@@ -443,13 +481,10 @@ void add_width(std::vector<Setting>& settings, const Shipped& s, const Model& m,
   else if (m.find("alpha_x"))
     settings.push_back({"alpha_x", {alpha}}), settings.push_back({"alpha_y", {alpha}});
   else if (const auto own = named_as_in(m, "alpha"); m.find(own))
-    settings.push_back({own, {alpha}});
+    set(own, alpha);
   else
-    for (const auto* name : {"roughness", "perceptualRoughness"})
-      if (const auto mine = named_as_in(m, name); m.find(mine)) {
-        settings.push_back({mine, {roughness}});
-        return;
-      }
+    for (const auto name : {std::string_view("roughness"), shader_roughness})
+      if (const auto mine = named_as_in(m, name); m.find(mine)) return set(mine, roughness);
 }
 
 }  // namespace

@@ -5,9 +5,11 @@
 #include <filesystem>
 
 #include "base/error.h"
+#include "foreign/compile.h"
 #include "optics/refractive_index.h"
 #include "refusal.h"
 #include "support.h"
+#include "validate/words.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -269,6 +271,68 @@ TEST(Choice, RefusesADomainThatNothingReads) {
   EXPECT_NE(refused(j).find("c.json: /domain/f0: found "), std::string::npos) << refused(j);
   j["reference_parameters"] = json::object();
   EXPECT_EQ(refused(j), "") << "the reference has the domain's";
+}
+
+/// A choice of a shader that mixes F0 from its baseColor.
+struct OfShader {
+  test::Folder folder;
+  json choice = plain();
+
+  OfShader() {
+    folder.write(
+        "metal.glsl",
+        "// Roughness 0.1 1 0.4\n// baseColor 0 1 0.6\n// metallic 0 1 0\n"
+        "vec3 shade(vec3 n, vec3 v, vec3 l, vec3 baseColor, float metallic, float "
+        "Roughness) {\n  vec3 f0 = mix(vec3(0.04), baseColor, metallic);\n"
+        "  return baseColor * (1.0 - metallic) / 3.1416 + f0 * Roughness * dot(n, l);\n}\n");
+    choice["model"] = "metal.glsl:shade";
+    choice["reference"] = "lambert+ggx/smith_ggx.correlated/schlick";
+    choice["domain"] = {{"roughness", {0.2, 1}}};
+  }
+  /// Every parameter of the model, then of the reference, as it is printed; or the refusal.
+  std::string printed() const {
+    std::string all;
+    try {
+      const Choice c = parse_choice(folder / "c.json", choice.dump());
+      for (const auto* side : {&c.shipped, &c.reference})
+        for (const auto& p : used_parameters(c, *side)) all += p.name + " " + value_text(p) + "; ";
+    } catch (const Error& e) {
+      all = e.what();
+    }
+    return all;
+  }
+};
+
+TEST(Choice, GivesAShaderItsOwnColourAndMetallicWhateverItsReferenceMakesOfThem) {
+  if (!foreign::can_compile()) GTEST_SKIP() << "this build reads no shaders";
+  OfShader of;
+  of.choice["parameters"] = {{"baseColor", 0.3}, {"metallic", 0.5}};
+  of.choice["reference_parameters"] = {{"kd", 0.3}, {"f0", 0.32}};
+  EXPECT_HAS(of.printed(), "baseColor 0.3; metallic 0.5; Roughness from the domain");
+  EXPECT_HAS(of.printed(), "kd 0.3; ");
+  of.choice["reference_parameters"] = {{"base_color", 0.3}};
+  EXPECT_HAS(of.printed(), "kd 0.15; ");
+  of.choice["reference_parameters"] = {{"kd", 0.3}, {"f0", 0.32}};
+  of.choice["parameters"] = {{"base_color", 0.1}, {"metallic", 0.5}};
+  EXPECT_HAS(of.printed(), "/parameters/base_color: found ");
+  EXPECT_HAS(of.printed(), "expected baseColor, as ");
+  of.choice["parameters"] = {{"base_color", 0.1}, {"baseColor", 0.3}, {"metallic", 0.5}};
+  EXPECT_HAS(of.printed(), "expected a parameter that reference_parameters does not set otherwise");
+  of.choice["reference_parameters"] = json::object();
+  EXPECT_HAS(of.printed(), "baseColor 0.3; metallic 0.5; ");
+  EXPECT_HAS(of.printed(), "kd 0.05; ");
+}
+
+TEST(Choice, AWidthThatItGivesAShaderIsUsedWhateverItsCase) {
+  if (!foreign::can_compile()) GTEST_SKIP() << "this build reads no shaders";
+  OfShader of;
+  of.choice["parameters"] = {{"Roughness", 0.9}};
+  EXPECT_HAS(of.printed(), "Roughness 0.9; ");
+  EXPECT_HAS(of.printed(), "alpha from the domain");
+  of.choice.erase("reference");
+  of.choice["budgets"] = {{"energy_gain", 0.1}};
+  EXPECT_HAS(of.printed(), "/domain/roughness: found ");
+  EXPECT_HAS(of.printed(), "parameters sets Roughness");
 }
 
 TEST(Choice, SaysWhoSetsEachParameterOfASide) {
