@@ -40,7 +40,7 @@ class Interpreter {
         last[at(r)] = n + 1;
       }
       auto& spare = free[is_truth(x)];
-      if (spare.empty()) {
+      if (spare.empty() || x.op == Op::input) {  // inputs are there before any step
         slot_[i] = slots[is_truth(x)]++;
       } else {
         slot_[i] = spare.back();

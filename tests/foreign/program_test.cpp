@@ -35,6 +35,18 @@ TEST(Program, MasksMeetAgain) {
   EXPECT_EQ(p(Op::inverse, not_b), b);
 }
 
+TEST(Program, AnInputThatIsReadLateKeepsItsValue) {
+  Program p;
+  const Ref x = p.input(true, 0), square = p(Op::mul, x, x), sum = p(Op::add, x, square);
+  p.outputs = {p(Op::mul, sum, p.input(true, 1))};
+  Interpreter<double> run(p);
+  double value = 0;
+  run.run(
+      1, [](std::size_t index, std::size_t) { return index == 0 ? 2.0 : 10.0; },
+      [&](std::size_t, std::size_t, double v) { value = v; });
+  EXPECT_EQ(value, 60);
+}
+
 TEST(Functions, OfFiftyDigitsEndWhereTheExponentIsNoNumber) {
   const Wide none = std::numeric_limits<Wide>::quiet_NaN();
   for (const Wide& nan : {none, Wide(-3) * none}) {  // which has a sign, and negated keeps it
