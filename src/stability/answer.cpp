@@ -164,8 +164,9 @@ Looked look(const Subject& s,
             const Arithmetic& a,
             const Tolerance& tolerance,
             std::uint64_t seed,
-            bool measures_errors) {
-  if (a.number == Number::half && can_be_exhausted(s))
+            bool measures_errors,
+            bool exhausts) {
+  if (exhausts && a.number == Number::half && can_be_exhausted(s))
     return exhaustive(s, {a.flush, a.contract}, tolerance);
   return search(s, a, {.tolerance = tolerance, .seed = seed, .measures_errors = measures_errors});
 }
@@ -187,7 +188,7 @@ Answer answer(const Question& q) {
 
   const bool relative = q.requirement.kind == Requirement::Kind::relative;
   a.looked = look(q.subject, looked_at(q.arithmetic), tolerance_of(q.requirement, number), q.seed,
-                  q.measures_errors);
+                  q.measures_errors, q.exhausts);
   a.worst_at = text_of(q.subject, a.looked.relative.at);
   a.worst_hex = hex_of(q.subject, number, a.looked.relative.at);
   if (const auto at = broken_at(a.looked, q.requirement); !at.empty()) {

@@ -27,6 +27,7 @@ struct Question {
   std::optional<std::uint64_t> boxes{};
   bool safe_from = true;        ///< whether the least value from which it holds is looked for, too
   bool proves = true;           ///< false: what a search does not find stays open
+  bool exhausts = true;         ///< false: a search, also where every half could be looked at
   bool measures_errors = true;  ///< false: a search only looks for inputs without a value
 };
 
@@ -79,7 +80,8 @@ Looked look(const Subject&,
             const Arithmetic&,
             const Tolerance&,
             std::uint64_t seed,
-            bool measures_errors = true);
+            bool measures_errors = true,
+            bool exhausts = true);
 
 /// Least values of `subject.decides` from which each requirement holds: finite, nonnegative, and an error, relative and absolute,
 /// the question's own limit or the usual one; in half subnormal results kept, and flushed.  Where there is a proof, they are found
