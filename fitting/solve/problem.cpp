@@ -23,7 +23,13 @@ namespace {
 
 /// The user's bounds by the names of the model's parameters.
 std::vector<Setting> resolved_bounds(const FitOptions& o, const BoundModel& b) {
-  std::vector<Setting> all = o.bounds;
+  std::vector<Setting> all;
+  for (const auto& s : o.bounds) {
+    const bool is_mixed = is_mixed_colour(b.model, s.name);
+    if (!is_mixed) all.push_back(s);
+    for (const char* channel : {"_r", "_g", "_b"})
+      if (is_mixed) all.push_back({s.name + channel, s.values});
+  }
   for (auto& s : all) {
     if (is_roughness(s.name) && b.model.find(alpha_name(s.name))) {
       s.name = alpha_name(s.name);

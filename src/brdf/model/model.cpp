@@ -86,10 +86,6 @@ std::string aliased(const Model& m, const std::string& name) {
   return stem == "f0" && dielectric ? eta : "";
 }
 
-/// Channels of a colour that a file's function mixes, which are parameters each: tint_r, tint_g and tint_b by the name tint.
-bool is_mixed_colour(const Model& m, const std::string& name) {
-  return !m.find(name) && m.find(name + "_r") && m.find(name + "_g") && m.find(name + "_b");
-}
 void divide_mixed_colours(const Model& m, std::vector<Setting>& settings) {
   std::vector<Setting> all;
   for (auto& s : settings) {
@@ -243,6 +239,10 @@ BoundModel bind_model(const ModelSpec& spec,
     }
   }
   return b;
+}
+
+bool is_mixed_colour(const Model& m, const std::string& name) {
+  return !m.find(name) && m.find(name + "_r") && m.find(name + "_g") && m.find(name + "_b");
 }
 
 bool takes_parameter(std::string_view spec, const std::string& name) {

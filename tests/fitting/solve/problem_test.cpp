@@ -4,7 +4,9 @@
 #include "base/error.h"
 #include "fitting/fit.h"
 #include "fitting/support.h"
+#include "foreign/compile.h"
 #include "refusal.h"
+#include "support.h"
 
 #include <gtest/gtest.h>
 
@@ -42,6 +44,20 @@ TEST(Problem, TakesBoundsOfRoughnessAsThoseOfAlpha) {
   EXPECT_NEAR(p.bounds.high[i], 0.25, 1e-15);
   EXPECT_TRUE(p.narrowed[i]);
   EXPECT_FALSE(p.narrowed[p.free.index(p.start.model.find("kd")->first)]);
+}
+
+TEST(Problem, TakesBoundsOfAColourThatAShaderMixesForItsThreeChannels) {
+  if (!foreign::can_compile()) GTEST_SKIP() << "this build reads no shaders";
+  const test::Folder folder;
+  folder.write("mixed.glsl",
+               "// f0 0 1 0.5\nvec3 brdf(vec3 N, vec3 L, vec3 V, vec3 f0) { return f0 + f0.yzx * "
+               "dot(N, L) * dot(N, V); }\n");
+  FitOptions o;
+  o.model = parse_model(folder / "mixed.glsl");
+  o.bounds = {{"f0", {0.1, 0.6}}};
+  const Problem p = pose(synthesize(test::bind(paint, "kd=0.2", 3), {.layout = Layout::random}), o);
+  for (const char* name : {"f0_r", "f0_g", "f0_b"})
+    EXPECT_EQ(p.bounds.high[p.free.index(p.start.model.find(name)->first)], 0.6);
 }
 
 TEST(Problem, RefusesBoundsThatSayNothingOrTooMuch) {
