@@ -116,7 +116,9 @@ class Builder {
     const Declared* const declared = c_.source.find(name);
     const auto fixed = reading.values.find(name);
     const bool is_fixed = fixed != reading.values.end() && fixed->second.size() == 1;
-    if (kind != Kind::number || is_fixed) {
+    const bool is_fixed_here =
+        fixed == reading.values.end() && declared && declared->is_fixed() && !c_.source.explorer;
+    if (kind != Kind::number || is_fixed || is_fixed_here) {
       if (!is_fixed && !(declared && !declared->start.empty()))
         throw wrong_usage(
             fmt::format("{}: {} is no number that varies: give its value, as in --bounds {}=1",

@@ -82,6 +82,7 @@ Declared declared_in(const std::string& path, int number, std::span<const std::s
 }
 
 /// A comment "// alpha 0.001 1 0.2" (the default may be absent), or "// … parameter alpha in [0.001, 1]" as gonio writes it.
+/// "// f90 1 1" fixes it.
 std::optional<Declared> declared_by_comment(int number, std::string_view line) {
   const auto at = line.find("//");
   if (at == line.npos) return {};
@@ -101,9 +102,10 @@ std::optional<Declared> declared_by_comment(int number, std::string_view line) {
     if (!x || !std::isfinite(*x)) break;
     v.push_back(*x);
   }
-  if (v.size() < 2 || !(v[0] < v[1])) return {};
+  if (v.size() < 2 || !(v[0] <= v[1])) return {};
   Declared d{std::string(words[0]), {v[0], v[1]}, {}, false, number};
   if (v.size() > 2 && d.range.holds(v[2])) d.start = {v[2]};
+  if (d.is_fixed()) d.start = {v[0]};
   return d;
 }
 

@@ -23,6 +23,8 @@ struct Declared {
   std::vector<double> start{};  ///< one, of a colour three; none: not said
   bool is_bool = false;
   int line = 0;
+
+  bool is_fixed() const { return range.low == range.high; }
 };
 
 struct Source {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <numbers>
 
 #include "foreign/directions.h"
 #include "foreign/guesses.h"
@@ -15,7 +16,12 @@ bool reads_angle(const Function& f, std::string_view name) {
 
 std::vector<double> defaults_of(const Function& f) {
   std::vector<double> v;
-  for (const auto& p : f.parameters) v.push_back(p.start);
+  for (const auto& p : f.parameters) {
+    const auto role = f.name.reading.arguments.find(p.name);
+    const auto name = plain(role == f.name.reading.arguments.end() ? p.name : role->second);
+    constexpr double of_glass = 1.5;
+    v.push_back(!p.bounded && (name == "eta" || name == "ior") ? of_glass : p.start);
+  }
   return v;
 }
 
@@ -38,11 +44,12 @@ bool differ(double a, double b) {
 namespace {
 
 /// True of a value that is 1/4 along the normal, or 1 where the 4 stands elsewhere, and only grows towards the horizon: V.
-bool gives_v(const Function& f) {
+/// \param between  azimuth from light to view
+bool gives_v(const Function& f, double between) {
   const auto p = defaults_of(f);
   double last = 0;
   for (const double theta : {0.0, 0.5, 1.0, 1.3, 1.5}) {
-    const double v = value_of(f, p, angles_between(theta, 0, theta, 0))[0];
+    const double v = value_of(f, p, angles_between(theta, between, theta, 0))[0];
     if (theta == 0 && differ(v, 0.25) && differ(v, 1)) return false;
     if (!(v > last)) return false;
     last = v;
@@ -60,19 +67,29 @@ Stands stands_for(const Function& f) {
   const bool half = reads_angle(f, "noh") || reads_angle(f, "sin2_theta_h") ||
                     reads_angle(f, "xoh") || reads_angle(f, "yoh");
   if (half && !l && !v && !facing && !frame) return Stands::distribution;
-  if (facing && !l && !v && !half && !frame) return Stands::fresnel;
+  const bool of_facing = facing && !l && !v && !half && !frame;
   const std::string n = plain(f.name.function);
   const bool named = n.starts_with("v") || n.starts_with("g") || n.find("smith") != n.npos ||
                      n.find("visib") != n.npos || n.find("geom") != n.npos ||
                      n.find("mask") != n.npos || n.find("shadow") != n.npos;
+  if (of_facing)  // Kelemen's V has no other cosine
+    return named && f.programs.size() == 1 && gives_v(f, std::numbers::pi) ? Stands::masking
+                                                                           : Stands::fresnel;
   // Of two widths it takes the cosines with the tangent, too; what takes vectors may be a whole
   // model.
   const bool of_cosines = std::ranges::none_of(f.arguments, [](const Argument& a) {
     return a.stands_for == "L" || a.stands_for == "V" || a.stands_for == "H";
   });
+  const auto takes = [&](std::string_view cosine) {
+    return std::ranges::find(f.arguments, cosine, &Argument::stands_for) != f.arguments.end();
+  };
+  if (!l && !v && !half && !frame && named && takes("nol") && takes("nov") &&
+      f.programs.size() == 1 &&
+      !differ(value_of(f, defaults_of(f), angles_between(0, 0, 0, 0))[0], 0.25))
+    return Stands::masking;  // the V of G = NoL NoV
   const bool may_be = (l || v) && (!frame || (of_cosines && !half && !facing)) &&
                       f.programs.size() == 1 && n.find("diffuse") == n.npos;
-  return may_be && (named || (l && v && of_cosines && !half && !facing && gives_v(f)))
+  return may_be && (named || (l && v && of_cosines && !half && !facing && gives_v(f, 0)))
              ? Stands::masking
              : Stands::lobe;
 }

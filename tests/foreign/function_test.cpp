@@ -24,6 +24,14 @@ TEST(Function, BoundsAreReadAsGonioWritesThem) {
   EXPECT_EQ(f.parameters[0].range.high, 0.5);
 }
 
+TEST(Function, ACommentWithOneValueForBothBoundsFixesAParameter) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w("// f90 0.5 0.5 0.5\nfloat F(float VoH, float f90) { return f90 * VoH; }\n");
+  const auto f = w.function();
+  EXPECT_TRUE(f.parameters.empty());
+  EXPECT_EQ(value_of(f, {}, {1, 1, 1, 1})[0], 0.5);
+}
+
 TEST(Function, AColourThatEachChannelReadsForItselfIsOneParameter) {
   SKIP_WITHOUT_SHADERS;
   const Written own("vec3 f(vec3 L, vec3 V, vec3 kd, vec3 N) { return kd / 3.14159265358979; }\n");
