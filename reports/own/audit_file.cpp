@@ -9,6 +9,7 @@
 #include "base/letters.h"
 #include "brdf/catalogue/foreign_terms.h"
 #include "brdf/in_number/number.h"
+#include "foreign/callers.h"
 #include "integrate/albedo/normalisation.h"
 #include "reports/measure/samples.h"
 #include "reports/own/in_half.h"
@@ -61,6 +62,28 @@ void audit_whole(FunctionAudit& a, const std::string& token, std::size_t term) {
   add(a.slips, parts.slips);
   add(a.to_check, parts.to_check);
   a.energy = energy_of(albedo);
+}
+
+/// A distribution without 1/π is right where its caller divides: it is asked of one whose name says so, and of one that functions
+/// of its file call beside π, unless such a caller lacks π itself.
+void ask_of_pi(FunctionAudit& a, const std::vector<FunctionAudit>& all) {
+  constexpr const char* lacks = "1/π is missing";
+  const auto at = std::ranges::find_if(a.slips, [&](const auto& s) { return s.ends_with(lacks); });
+  if (a.of.function->stands != foreign::Stands::distribution || at == a.slips.end()) return;
+  const auto& name = a.of.function->name;
+  auto callers = foreign::callers_with_pi(name.file, name.function);
+  std::erase_if(callers, [&](const std::string& c) {
+    return std::ranges::any_of(all, [&](const FunctionAudit& b) {
+      return b.of.entry.function == c && std::ranges::any_of(b.slips, [](const std::string& s) {
+               return s.find("π times too large") != s.npos;
+             });
+    });
+  });
+  if (callers.empty() && plain_name(name.function).find("nopi") == std::string::npos) return;
+  a.to_check.push_back(fmt::format(
+      "{}: right where its caller divides by π{}; otherwise highlights are π times too bright", *at,
+      callers.empty() ? "" : ", as " + callers[0] + " may"));
+  a.slips.erase(at);
 }
 
 /// Names the factor that a distribution of no form of ours lacks, where it is the same at two widths; otherwise "".
@@ -152,10 +175,11 @@ FunctionAudit audit_function(const FileFunction& of) {
   }
   a.half = (role == Role::diffuse ? "for NoL and NoV from 0.05: " : "") + in_half(term, domain);
   const bool is_looked_up = role != Role::ndf || a.laws.normalisation;
-  if (!a.model && is_looked_up && (role != Role::diffuse || !f.reads_frame)) {
+  if (!a.model && is_looked_up && (role != Role::diffuse || !f.anisotropic)) {
     constexpr double far_off = 0.5;  // no form resembles it
     a.nearest = nearest_form(term);
-    if (a.nearest && a.nearest->difference > far_off) a.nearest.reset();
+    if (a.nearest && a.nearest->difference > (a.nearest->of_one ? same_within : far_off))
+      a.nearest.reset();
     if (a.nearest) {
       add(a.slips, likely_slips(term, *a.nearest));
       add(a.to_check, to_check(*a.nearest));
@@ -206,6 +230,8 @@ std::vector<FunctionAudit> audit_file(const std::string& name) {
     all.emplace_back();
     all.back().of = std::move(f);
   }
+  for (auto& a : all)
+    if (a.of.function) ask_of_pi(a, all);
   return all;
 }
 

@@ -23,7 +23,7 @@ std::string nearest_text(const FunctionAudit& a) {
   const auto id = catalogue()[n.term].id();
   const std::string map = width_text(n.width ? std::string(n.width->name) : "", n.power);
   if (!is_same(n)) return fmt::format("{}{}: up to {} apart", id, map, rounded_up(n.difference));
-  return fmt::format("{}{}", id, map);
+  return fmt::format("{}{}{}", id, map, n.of_one ? ", by one direction" : "");
 }
 
 /// \param line  adds a line with a name

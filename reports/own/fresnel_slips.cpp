@@ -49,6 +49,9 @@ constexpr std::array of_f0{
              "its Fresnel term has no power: (1 − VoH) stands where (1 − VoH)⁵ belongs"},
     SlipOfF0{[](double f, double c) { return schlick(f, c, 10); },
              "its Fresnel term has the power 10, Schlick's has 5"},
+    SlipOfF0{
+        [](double f, double c) { return f + (1 - f) * std::exp2((-5.55473 * c + 6.98316) * c); },
+        "+ 6.98316 stands where − 6.98316 belongs in its Fresnel term, which exceeds 1"},
     SlipOfF0{[](double f, double c) { return schlick(f, c * c); },
              "its Fresnel term has VoH² where VoH belongs"},
     SlipOfF0{[](double f, double c) { return f + f * darkened(c); },

@@ -120,14 +120,17 @@ std::optional<Drop> drop_of(const std::function<double(const Row&)>& left,
 
 bool Drop::is_little() const {
   constexpr double steep_deg = 85;
-  return from_deg > steep_deg;
+  return is_of_sheen || from_deg > steep_deg;
 }
 
 std::string text_of(const Drop& d) {
   return fmt::format(
       "{}: it is held down towards the horizon, by a tenth and more from {:.3g}° on, where light "
       "and view are mirrored{}",
-      d.what, d.from_deg, d.is_little() ? "; right where nothing is seen so steeply" : "");
+      d.what, d.from_deg,
+      d.is_of_sheen   ? "; Khronos's sheen does so"
+      : d.is_little() ? "; right where nothing is seen so steeply"
+                      : "");
 }
 
 }  // namespace gonio

@@ -43,8 +43,9 @@ std::optional<HorizonGuard> guard_of(std::span<const auditing::Row>,
 struct Drop {
   double from_deg;   ///< zenith angle of light and view, mirrored, from which a tenth is lost
   std::string what;  ///< "0.01 is added to 4 NoL NoV", or "a guard below"
+  bool is_of_sheen = false;  ///< V of a sheen held below 1, as Khronos's
 
-  bool is_little() const;  ///< beyond what is seen of materials
+  bool is_little() const;  ///< beyond what is seen of materials, or as it is shipped
 };
 /// \param left  part that is left of a highlight
 std::optional<Drop> drop_of(const std::function<double(const auditing::Row&)>& left,

@@ -84,6 +84,15 @@ std::vector<Row> grazing() {
   return rows;
 }
 
+bool takes(const foreign::Function& f, std::string_view cosine, std::string_view vector) {
+  return std::ranges::any_of(f.arguments, [&](const foreign::Argument& a) {
+    return a.stands_for == cosine || a.stands_for == vector;
+  });
+}
+bool takes_both_cosines(const foreign::Function& f) {
+  return takes(f, "nol", "L") && takes(f, "nov", "V");
+}
+
 /// Names of parameters, and of a term's cosines, that its programs read and that change no value.
 std::vector<std::string> without_effect(const foreign::Function& f,
                                         std::size_t term,
@@ -130,33 +139,24 @@ std::vector<std::string> without_effect(const foreign::Function& f,
       return differ(values(c, p, rows), values(c, p, other));
     });
   };
-  const auto takes = [&](std::string_view cosine, std::string_view vector) {
-    return std::ranges::any_of(f.arguments, [&](const foreign::Argument& a) {
-      return a.stands_for == cosine || a.stands_for == vector;
-    });
-  };
-  if (role == Role::masking && takes("nol", "L") && takes("nov", "V")) {
+  if (role == Role::masking && takes_both_cosines(f)) {
     const bool by_l = changes(&Row::nol), by_v = changes(&Row::nov);
     if (by_v && !by_l) names.emplace_back("NoL");
     if (by_l && !by_v) names.emplace_back("NoV");
   }
-  if (role == Role::ndf && !f.reads_frame && takes("noh", "H") && !changes(&Row::noh))
+  if (role == Role::ndf && !f.reads_frame && takes(f, "noh", "H") && !changes(&Row::noh))
     names.emplace_back("NoH");
-  if (role == Role::fresnel && takes("voh", "voh") && !changes(&Row::voh))
+  if (role == Role::fresnel && takes(f, "voh", "voh") && !changes(&Row::voh))
     names.emplace_back("VoH");
   return names;
 }
 
-bool takes_both_cosines(const foreign::Function& f) {
-  const auto takes = [&](std::string_view scalar, std::string_view vector) {
-    return std::ranges::any_of(f.arguments, [&](const foreign::Argument& a) {
-      return a.stands_for == scalar || a.stands_for == vector;
-    });
-  };
-  return takes("nol", "L") && takes("nov", "V");
-}
-
 }  // namespace
+
+double Row::*other_cosine(const foreign::Function& f) {
+  const bool l = takes(f, "nol", "L"), v = takes(f, "nov", "V");
+  return l == v ? nullptr : l ? &Row::nov : &Row::nol;
+}
 
 Laws laws_of(const foreign::Function& f, std::size_t term) {
   Laws a;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "foreign/function.h"
+#include "reports/measure/samples.h"
 #include "reports/own/energy.h"
 
 namespace gonio {
@@ -24,5 +25,7 @@ struct Laws {
   bool fails_behind = false;  ///< a whole model has no value for a light behind the horizon
 };
 Laws laws_of(const foreign::Function&, std::size_t foreign_term);
+/// Of a function that takes the cosine of one direction only, that of the other; null of one that takes both, or neither.
+double auditing::Row::*other_cosine(const foreign::Function&);
 
 }  // namespace gonio

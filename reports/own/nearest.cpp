@@ -10,6 +10,7 @@
 #include "geometry/direction.h"
 #include "reports/finding/words.h"
 #include "reports/measure/samples.h"
+#include "reports/own/laws.h"
 #include "reports/own/parameters.h"
 
 #include <fmt/format.h>
@@ -26,21 +27,38 @@ struct Pairing {
   std::optional<std::size_t> width;  ///< the file's, where the form has an alpha
 };
 Pairing pair_up(std::span<const Parameter> own,
-                const TermEntry& form,
+                std::size_t form,
                 std::optional<std::size_t> width) {
   Pairing p;
-  for (const auto& q : form.parameters) {
-    const auto same = std::ranges::find(own, q.name, &Parameter::meaning);
+  const auto known = known_parameters(form);
+  const auto width_of_form = width_of(known);
+  std::optional<std::size_t> other;  // the first beside the width
+  bool is_only = true;               // channels of one colour are one
+  for (std::size_t k = 0; k < own.size(); ++k) {
+    if (k == width) continue;
+    is_only = is_only && (!other || stem_of(own[k].name) == stem_of(own[*other].name));
+    if (!other) other = k;
+  }
+  for (std::size_t j = 0; j < known.size(); ++j) {
+    const auto& q = known[j];
+    const auto same = std::ranges::find_if(own, [&](const auto& o) { return means_same(o, q); });
     std::optional<std::size_t> k;
     if (q.name == "alpha")
       k = p.width = width;
     else if (same != own.end())
       k = static_cast<std::size_t>(same - own.begin());
-    else if ((q.name == "f0" || q.name == "kd") && own.size() - width.has_value() == 1)
-      k = width == 0 ? 1 : 0;
+    else if (j == width_of_form)
+      k = width;
+    else if ((q.name == "f0" || q.name == "kd") && is_only)
+      k = other;
     p.of.push_back(k);
   }
   return p;
+}
+/// What a form's parameter is where a file's stands for it.
+double value_for(const Parameter& form, const Parameter& own, double v, double power) {
+  if (form.name == "alpha") return alpha_of(v, power);
+  return form.name == "f0" && is_eta(own) ? square((v - 1) / (v + 1)) : v;
 }
 
 constexpr double pi = std::numbers::pi;
@@ -86,13 +104,18 @@ std::optional<Drop> drop_over(const NearestForm& n,
   for (const auto& a : known_parameters(term)) p.push_back(usual_of(a));
   for (const auto& a : catalogue()[n.term].parameters)
     q.push_back(n.width && a.name == "alpha" ? alpha_of(usual_of(*n.width), n.power) : a.start);
-  return drop_of(
+  auto drop = drop_of(
       [&](const Row& r) {
         const std::span one(&r, 1);
         return values_in(Number::double_, term, p, one)[0] /
                (n.factor * values_in(Number::double_, n.term, q, one)[0]);
       },
       guard);
+  if (drop && guard)
+    drop->is_of_sheen = catalogue()[n.term].id() == "masking.smith_charlie.correlated" &&
+                        guard->kind == HorizonGuard::Kind::cap &&
+                        std::abs(guard->amount - 1) < same_within;
+  return drop;
 }
 
 /// Where a guard holds masking down towards the horizon, takes it out of the values of G2.  \return  whether there is one
@@ -115,13 +138,25 @@ bool take_guard(NearestForm& n,
   return true;
 }
 
+/// Of masking by one direction, the cosine of the other, which masks nothing along the normal.
+double Row::*along_normal(std::size_t term) {
+  const bool is_masking = catalogue()[term].role() == Role::masking;
+  return is_masking ? other_cosine(*foreign_term(term)->function) : nullptr;
+}
+
 /// Compares the file's function with one form, alpha being one power of its width.
 NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing, double power) {
   const auto &own = catalogue()[term], &other = catalogue()[form];
   const auto known = known_parameters(term);
-  const auto& rows = auditing::rows_of(own.role());
   NearestForm n;
   n.term = form;
+  auto rows = auditing::rows_of(own.role());
+  const auto unmasked = along_normal(term);
+  n.of_one = unmasked != nullptr;
+  for (auto& r : rows)
+    if (n.of_one)
+      r = unmasked == &Row::nol ? auditing::row(0, 0, std::acos(r.nov), 0)
+                                : auditing::row(std::acos(r.nol), 0, 0, 0);
   if (pairing.width) n.width = known[*pairing.width];
   n.power = power;
   std::vector<Values> f, g;
@@ -134,14 +169,16 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     bool is_legal = true;
     for (std::size_t j = 0; j < other.parameters.size(); ++j) {
       const auto from = pairing.of[j];
-      double v = from ? p[*from] : other.parameters[j].start;
-      if (from && from == pairing.width) v = alpha_of(v, power);
+      const double v = from ? value_for(other.parameters[j], known[*from], p[*from], power)
+                            : other.parameters[j].start;
       is_legal = is_legal && other.parameters[j].legal.holds(v);
       q.push_back(v);
     }
     if (!is_legal) continue;
     f.push_back(shown_in(Number::double_, term, p, rows));
     g.push_back(shown_in(Number::double_, form, q, rows));
+    if (n.of_one && !foreign_term(term)->function->is_g)
+      for (double& x : f.back()) x /= 2;  // G1/(2 NoV)
   }
   n.difference = std::numeric_limits<double>::infinity();
   if (f.size() < 2) return n;
@@ -155,9 +192,10 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
   if (ratios.empty()) return n;
   std::ranges::nth_element(ratios, ratios.begin() + static_cast<std::ptrdiff_t>(ratios.size() / 2));
   const bool scales = own.role() == Role::ndf || own.role() == Role::diffuse;
-  n.factor = scales || (own.role() == Role::masking && is_usual(ratios[ratios.size() / 2]))
-                 ? ratios[ratios.size() / 2]
-                 : 1;
+  n.factor =
+      scales || (own.role() == Role::masking && !n.of_one && is_usual(ratios[ratios.size() / 2]))
+          ? ratios[ratios.size() / 2]
+          : 1;
   double highest = 0, wanted = 0;
   for (std::size_t k = 0; k < f.size(); ++k) {
     highest = std::max(highest, *std::ranges::max_element(f[k]));
@@ -178,7 +216,8 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     if (n.norms->high < n.norms->low * (1 + same_within)) n.norms.reset();
     n.cap.reset();
   }
-  const bool is_guarded = own.role() == Role::masking && take_guard(n, term, rows, f, g);
+  const bool is_guarded =
+      own.role() == Role::masking && !n.of_one && take_guard(n, term, rows, f, g);
   n.difference = 0;
   double held_down = 0;  // the largest difference of what lies below the form
   std::size_t low_rows = 0;
@@ -205,7 +244,8 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
   }
   // The form itself, where it is there, is nearer than another with a guard.
   if (is_guarded) n.difference = std::max(n.difference, 0.5 * same_within);
-  if (own.role() == Role::masking && !n.drop && is_same(n) && own.parameters.size() <= 1)
+  if (own.role() == Role::masking && !n.of_one && !n.drop && is_same(n) &&
+      own.parameters.size() <= 1)
     n.drop = drop_over(n, term, {});
   // A guard holds narrow peaks down, and nothing else differs.
   if (low_rows > 0 &&
@@ -240,6 +280,8 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
     const auto& entry = catalogue()[form];
     if (entry.role() != own.role() || entry.anisotropic != own.anisotropic || entry.coupled)
       continue;
+    if (along_normal(term) && (entry.parameters.empty() || entry.id().ends_with(".correlated")))
+      continue;             // by one direction it is the separable one
     if (own.anisotropic) {  // the widths along the tangent and the bitangent, in either order
       if (own.parameters.size() != 2 || entry.parameters.size() != 2) continue;
       for (const std::size_t first : {0, 1}) {
@@ -249,7 +291,7 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       continue;
     }
     for (const auto& width : widths) {
-      const Pairing pairing = pair_up(known, entry, width);
+      const Pairing pairing = pair_up(known, form, width);
       std::vector<double> powers{1};
       if (pairing.width) {
         const auto& w = known[*pairing.width];
@@ -323,7 +365,7 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
   }
   if (n.bite && !n.bite->is_little) all.push_back(text_of(*n.bite, *n.width, n.power));
   if (n.drop && !n.drop->is_little()) all.push_back(text_of(*n.drop));
-  if (own.role() == Role::masking) {
+  if (own.role() == Role::masking && !n.of_one) {
     const auto name = plain_name(f.name.function);
     if (f.is_g && (name.starts_with("v") && !name.starts_with("vg")))
       all.push_back(

@@ -29,6 +29,7 @@ struct NearestForm {
   std::optional<Range> norms;
   std::optional<Bite> bite;
   std::optional<Drop> drop;  ///< of masking
+  bool of_one = false;       ///< masking by one direction
 };
 
 /// The nearest form of the same role; none where nothing has a value that can be compared.

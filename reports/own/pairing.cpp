@@ -53,11 +53,6 @@ StandsFor width_of_alpha(StandsFor alpha, const Parameter& width) {
           fmt::format("that of alpha = {}", alpha.text)};
 }
 
-bool is_diffuse(const Parameter& p) {
-  const auto n = known(p);
-  return n == "kd" || n == "albedo" || n == "color" || n == "basecolor" || n.starts_with("diffuse");
-}
-
 /// Pairs of everything but widths.
 Pairs by_name(std::span<const Parameter> own, std::span<const Parameter> other) {
   const bool has_metals = std::ranges::any_of(own, is_metallic);
@@ -68,9 +63,7 @@ Pairs by_name(std::span<const Parameter> own, std::span<const Parameter> other) 
       // In a metallic workflow specular is F0 of a dielectric over 0.08.
       constexpr double of_specular = 0.08;
       const bool is_over = has_metals && known(p) == "specular" && known(q) == "f0";
-      if (known(p) == known(q) || (is_f0(q) && is_f0(p)) || (is_diffuse(q) && is_diffuse(p)) ||
-          (is_eta(q) && is_eta(p)))
-        all[j] = itself(own, k, is_over ? of_specular : 1);
+      if (means_same(p, q)) all[j] = itself(own, k, is_over ? of_specular : 1);
     }
   return all;
 }

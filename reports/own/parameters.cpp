@@ -86,6 +86,20 @@ bool is_eta(const Parameter& p) {
   return n == "eta" || n == "ior";
 }
 
+bool means_same(const Parameter& p, const Parameter& q) {
+  const auto is_diffuse = [](const std::string& n) {
+    return n == "kd" || n == "albedo" || n == "color" || n == "basecolor" ||
+           n.starts_with("diffuse");
+  };
+  const auto is_k = [](const std::string& n) {
+    return n == "k" || n == "etak" || n == "kappa" || n == "extinction";
+  };
+  const auto a = known_as(p), b = known_as(q);
+  return a == b || (is_f0(p) && is_f0(q)) || (is_eta(p) && is_eta(q)) ||
+         (is_diffuse(a) && is_diffuse(b)) || (is_k(a) && is_k(b)) ||
+         (a.starts_with("f82") && b.starts_with("f82"));
+}
+
 std::optional<std::size_t> width_of(std::span<const Parameter> parameters) {
   for (const auto* name : {"alpha", "rough", "gloss", "smooth", "sigma", "width"})
     for (std::size_t k = 0; k < parameters.size(); ++k)

@@ -34,6 +34,8 @@ bool is_exponent(const Parameter&);
 bool is_anisotropy(const Parameter&);
 /// Whether it is a ratio of indices of refraction.
 bool is_eta(const Parameter&);
+/// Whether two names say the same: F0, a diffuse colour, eta, k, or the same letters.
+bool means_same(const Parameter&, const Parameter&);
 /// The parameter whose name says that it is a width: alpha, roughness, m …
 std::optional<std::size_t> width_of(std::span<const Parameter>);
 

@@ -144,13 +144,22 @@ class Parts {
     const double grey = (low_of(colour) + high_of(colour)) / 2;  // of white F leaves nothing
     auto p = with_highlight(own_, *colours_, grey, others_);
     p[*width_] = narrowest_;
-    const auto off_peak = auditing::row(45 * degree, 0, 45 * degree, 60 * degree);
-    const auto at = [&](double v) {
+    const auto at = [&](double v, const Row& row) {
       p[*colours_->metallic] = v;
-      return values_in(Number::double_, term_, p, std::span(&off_peak, 1))[0];
+      return values_in(Number::double_, term_, p, std::span(&row, 1))[0];
     };
+    const auto peak = auditing::row(0, 0, 0, 0);
+    const double low = at(low_of(metallic), peak), high = at(high_of(metallic), peak);
+    const double middle = at((low_of(metallic) + high_of(metallic)) / 2, peak);
+    constexpr double mixed_twice = 0.25, same = 0.01;
+    if (std::abs((middle - low) / (high - low) - mixed_twice) < same)
+      a_.slips.push_back(
+          fmt::format("its F0 is mixed twice: halfway over {} it is a quarter of the way from a "
+                      "dielectric's to the colour, expected half",
+                      metallic.name));
+    const auto off_peak = auditing::row(45 * degree, 0, 45 * degree, 60 * degree);
     constexpr double least = 0.3;  // of a dielectric's
-    const double of_metal = at(high_of(metallic)), other = at(low_of(metallic));
+    const double of_metal = at(high_of(metallic), off_peak), other = at(low_of(metallic), off_peak);
     if (other > 0 && of_metal > least * other)
       a_.slips.push_back(
           fmt::format("its diffuse part is left where {0} is {1:.4g}: expected (1 − {0}) times the "

@@ -93,6 +93,10 @@ constexpr std::array of_distribution{
         [](double a, const Row& r) { return (2 + a) / (2 * pi) * std::pow(r.sin2_theta_h, a / 2); },
         "its width is inverted: alpha stands where 1/alpha belongs in Charlie's exponent",
         "charlie"},
+    SlipForm{[](double a, const Row& r) {
+               return (2 + 1 / a) / (2 * pi) * std::pow(r.sin2_theta_h, 1 / a);
+             },
+             "½ is missing in Charlie's exponent: sin² θ has the power 1/(2 alpha)", "charlie"},
 };
 
 // ---- masking, of a cosine c
@@ -134,9 +138,10 @@ template <std::size_t k>
 double of_both(double a, const Row& r) {
   return of_one[k].g1(a, r.nol) * of_one[k].g1(a, r.nov) / (4 * r.nol * r.nov);
 }
-template <std::size_t k, bool of_view>
+/// As V, or as G1 itself.
+template <std::size_t k, bool of_view, bool is_v>
 double of_either(double a, const Row& r) {
-  return of_one[k].g1(a, of_view ? r.nov : r.nol) / (4 * r.nol * r.nov);
+  return of_one[k].g1(a, of_view ? r.nov : r.nol) / (is_v ? 4 * r.nol * r.nov : 1);
 }
 
 double correlated(const Row& r, double of_l, double of_v) {
@@ -202,15 +207,17 @@ template <std::size_t... k>
 constexpr auto pairs_of_one(std::index_sequence<k...>) {
   return std::array{SlipForm{of_both<k>, of_one[k].slip, of_one[k].like}...};
 }
-template <bool of_view, std::size_t... k>
+template <bool of_view, bool is_v, std::size_t... k>
 constexpr auto ones(std::index_sequence<k...>) {
-  return std::array{SlipForm{of_either<k, of_view>, of_one[k].slip, of_one[k].like}...};
+  return std::array{SlipForm{of_either<k, of_view, is_v>, of_one[k].slip, of_one[k].like}...};
 }
 constexpr auto each_one = std::make_index_sequence<of_one.size()>{};
 constexpr auto of_product = pairs_of_one(each_one);
 /// Of one direction k may be what the caller makes of alpha.
 constexpr auto but_for_k = std::make_index_sequence<of_one.size() - 1>{};
-constexpr auto of_view = ones<true>(but_for_k), of_light = ones<false>(but_for_k);
+constexpr std::array of_one_direction{
+    ones<true, true>(but_for_k), ones<false, true>(but_for_k),  // without a root G1 may exceed 1
+    ones<true, false>(but_for_k), ones<false, false>(but_for_k)};
 /// 2 NoH c/VoH of Cook and Torrance, whose masking has no width.
 double groove(const Row& r, double c) {
   return 2 * r.noh * c / r.voh;
@@ -218,6 +225,8 @@ double groove(const Row& r, double c) {
 constexpr const char* max_for_min =
     "max stands where min belongs: G = min(1, 2 NoH NoV/VoH, 2 NoH NoL/VoH)";
 constexpr std::array of_none{
+    SlipForm{[](double, const Row& r) { return 0.25 / (r.nol + r.nov + r.nol * r.nov); },
+             "+ NoL NoV stands below where − NoL NoV belongs in Neubelt's V", "kelemen"},
     SlipForm{[](double, const Row& r) { return 1 / (r.nol + r.nov - r.nol * r.nov); },
              "4 times that of Neubelt: a 4 is missing below", "kelemen"},
     SlipForm{[](double, const Row& r) {
@@ -247,6 +256,21 @@ constexpr std::array of_none{
     SlipForm{[](double, const Row& r) { return 0.25 / std::min(r.nol, r.nov); },
              "min stands where max belongs: V = 1/(4 max(NoL, NoV))", "neumann"},
 };
+
+// ---- diffuse functions, but for their colour
+/// Burley's two factors with an F90.
+double burley_of(double f90, const Row& r) {
+  return (1 + (f90 - 1) * std::pow(1 - r.nol, 5)) * (1 + (f90 - 1) * std::pow(1 - r.nov, 5));
+}
+constexpr std::array of_diffuse{
+    SlipForm{[](double a, const Row& r) { return burley_of(0.5 + 2 * std::sqrt(a) * r.voh, r); },
+             "VoH is not squared in F90 = 0.5 + 2 roughness VoH²", "disney"},
+    SlipForm{[](double sigma, const Row& r) {
+               const double q = sigma * sigma, s = 2 * r.voh * r.voh - 1 - r.nol * r.nov;
+               const double t = s > 0 ? std::min(r.nol, r.nov) : 1;
+               return 1 - 0.5 * q / (q + 0.33) + 0.45 * q / (q + 0.09) * std::max(s, 0.0) / t;
+             },
+             "min stands where max belongs: s/max(NoL, NoV) in Oren and Nayar's B", "oren_nayar"}};
 
 constexpr auto of_masking = [] {
   std::array<SlipForm, of_pair.size() + of_product.size() + of_none.size() + of_half.size()> all{};
@@ -322,10 +346,16 @@ std::string slip_of_two_widths(std::size_t term) {
       return of(r, root(r.xol, r.yol, r.nol), root(r.xov, r.yov, r.nov));
     });
   };
-  if (is([](const Row& r, double l, double v) { return 0.5 / (r.nol * l + r.nov * v); }))
+  if (is([](const Row& r, double of_l, double of_v) {
+        return 0.5 / (r.nol * of_l + r.nov * of_v);
+      }))
     return swapped_cosines;
-  if (is([](const Row& r, double l, double v) { return correlated(r, l * l, v * v); }) ||
-      is([](const Row& r, double l, double v) { return 1 / ((r.nol + l * l) * (r.nov + v * v)); }))
+  if (is([](const Row& r, double of_l, double of_v) {
+        return correlated(r, of_l * of_l, of_v * of_v);
+      }) ||
+      is([](const Row& r, double of_l, double of_v) {
+        return 1 / ((r.nol + of_l * of_l) * (r.nov + of_v * of_v));
+      }))
     return no_root;
   return "";
 }
@@ -359,6 +389,7 @@ std::string slip_of_fresnel(std::size_t term) {
 
 std::span<const SlipForm> slip_forms(Role role) {
   if (role == Role::ndf) return of_distribution;
+  if (role == Role::diffuse) return of_diffuse;
   return role == Role::masking ? std::span<const SlipForm>(of_masking)
                                : std::span<const SlipForm>();
 }
@@ -377,7 +408,7 @@ std::string slip_form(std::size_t term) {
   }
   const auto known = known_parameters(term);
   const auto width = width_of(known);
-  if (!width || own.anisotropic || own.role() == Role::diffuse) return "";
+  if (!width || own.anisotropic) return "";
   constexpr std::size_t places = 4;
   const auto widths = values_between(known[*width], places);
   std::vector<Values> values;
@@ -390,24 +421,28 @@ std::string slip_form(std::size_t term) {
   const auto named = [&](std::span<const SlipForm> forms) -> std::string {
     for (const double power : powers_of(known[*width]))
       for (const auto& s : forms) {
+        const bool has_colour = own.role() == Role::diffuse;
+        const double colour =
+            has_colour ? values[0][0] / s.value(alpha_of(widths[0], power), rows[0]) : 1;
         std::size_t k = 0;
         while (k < places && are(values[k], rows, [&](const Row& r) {
-                 return s.value(alpha_of(widths[k], power), r);
+                 return colour * s.value(alpha_of(widths[k], power), r);
                }))
           ++k;
         if (k == places) return s.slip;
       }
     return "";
   };
-  if (auto slip = named(slip_forms(own.role())); !slip.empty() || own.role() == Role::ndf)
+  if (auto slip = named(slip_forms(own.role())); !slip.empty() || own.role() != Role::masking)
     return slip;
   for (const double power : powers_of(known[*width])) {
     Values alphas;
     for (const double w : widths) alphas.push_back(alpha_of(w, power));
     if (auto slip = sum_in_masking(rows, values, alphas); !slip.empty()) return slip;
   }
-  const auto of_one_cosine = named(of_view);
-  return of_one_cosine.empty() ? named(of_light) : of_one_cosine;
+  for (const auto& forms : of_one_direction)
+    if (auto slip = named(forms); !slip.empty()) return slip;
+  return "";
 }
 
 }  // namespace gonio

@@ -1,5 +1,6 @@
 // A build without glslang: files of shaders are refused by name.
 #include "base/error.h"
+#include "foreign/callers.h"
 #include "foreign/function.h"
 
 #include <fmt/format.h>
@@ -30,6 +31,10 @@ std::string sha256_of(const std::string& file) {
 }
 void provide(const std::string& file, const std::string&) {
   refuse_file(file);
+}
+
+std::vector<std::string> callers_with_pi(const std::string&, const std::string&) {
+  return {};
 }
 
 }  // namespace gonio::foreign

@@ -1,6 +1,7 @@
 #include "foreign/spirv_module.h"
 
 #include <algorithm>
+#include <bit>
 #include <functional>
 
 #include "foreign/program.h"
@@ -246,6 +247,14 @@ const SpirvType& SpirvModule::leaf(Id id) const {
   while (t->op == spv::OpTypeVector || t->op == spv::OpTypeMatrix || t->op == spv::OpTypeArray)
     t = &types_.at(t->element);
   return *t;
+}
+
+std::optional<double> number_of(const SpirvModule& m, const Instruction& i) {
+  const SpirvType& t = m.type(i.type);
+  if (t.width != 32 && (t.width != 64 || t.op == spv::OpTypeInt)) return {};
+  if (t.op == spv::OpTypeInt) return static_cast<std::int32_t>(i.in[0]);
+  return t.width == 64 ? std::bit_cast<double>(i.in[0] | static_cast<std::uint64_t>(i.in[1]) << 32)
+                       : static_cast<double>(std::bit_cast<float>(i.in[0]));
 }
 
 }  // namespace gonio::foreign

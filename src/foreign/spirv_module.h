@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <map>
+#include <optional>
 #include <set>
 #include <span>
 #include <string>
@@ -83,5 +84,8 @@ class SpirvModule {
   std::map<Id, SpirvFunction> functions_;
   std::set<Id> glsl450_;
 };
+
+/// The number that an OpConstant is; none of one that has neither 32 nor 64 bits.
+std::optional<double> number_of(const SpirvModule&, const Instruction&);
 
 }  // namespace gonio::foreign

@@ -1,7 +1,6 @@
 #include "foreign/translate.h"
 
 #include <algorithm>
-#include <bit>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -132,15 +131,9 @@ class Translator {
         globals_[i.id] = {i.type, {p.truth(i.op == spv::OpConstantTrue)}};
         return;
       case spv::OpConstant: {
-        const SpirvType& t = m.type(i.type);
-        if (t.width != 32 && (t.width != 64 || t.op == spv::OpTypeInt))
-          p.refuse("a constant of neither 32 nor 64 bits");
-        const double v =
-            t.op == spv::OpTypeInt ? static_cast<std::int32_t>(i.in[0])
-            : t.width == 64
-                ? std::bit_cast<double>(i.in[0] | static_cast<std::uint64_t>(i.in[1]) << 32)
-                : static_cast<double>(std::bit_cast<float>(i.in[0]));
-        globals_[i.id] = {i.type, {p.constant(v, kind(m, i.type))}};
+        const auto v = number_of(m, i);
+        if (!v) p.refuse("a constant of neither 32 nor 64 bits");
+        globals_[i.id] = {i.type, {p.constant(*v, kind(m, i.type))}};
         return;
       }
       case spv::OpConstantComposite: {

@@ -19,13 +19,13 @@ namespace gonio {
 #define SKIP_WITHOUT_SHADERS \
   if (!foreign::can_compile()) GTEST_SKIP() << "this build reads no shaders"
 
-/// The audit of a text's first function, once in a run.
-inline const FunctionAudit& audited(const std::string& text) {
-  static std::map<std::string, FunctionAudit> known;
-  const auto [at, fresh] = known.try_emplace(text);
+/// The audit of a text's first function, or of another, once in a run.
+inline const FunctionAudit& audited(const std::string& text, std::size_t function = 0) {
+  static std::map<std::pair<std::string, std::size_t>, FunctionAudit> known;
+  const auto [at, fresh] = known.try_emplace({text, function});
   if (fresh) {
     const test::Folder folder;
-    at->second = audit_file(folder.write("case.glsl", text))[0];
+    at->second = audit_file(folder.write("case.glsl", text))[function];
   }
   return at->second;
 }

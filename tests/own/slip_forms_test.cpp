@@ -302,5 +302,71 @@ TEST(SlipForms, TheKOfImageLightIsAskedAsThatOfLampsIs) {
              "k is alpha: Schlick's masking has k = alpha/2");
 }
 
+TEST(Slips, OfSheensAndOfDiffuseFunctionsAreNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto charlie = [](const std::string& exponent) {
+    return slips(audited(
+        "// roughness 0.3 1 0.5\nfloat D_Charlie(float roughness, float NoH) { float inv = 1.0 / "
+        "(roughness * roughness); return (2.0 + inv) * pow(1.0 - NoH * NoH, " +
+        exponent + ") / (2.0 * 3.14159265358979); }\n"));
+  };
+  EXPECT_EQ(charlie("inv * 0.5"), "");
+  EXPECT_HAS(charlie("inv"), "½ is missing in Charlie's exponent");
+  EXPECT_HAS(slips(audited("float V_Neubelt(float NoV, float NoL) { return 1.0 / (4.0 * (NoL + NoV "
+                           "+ NoL * NoV)); }\n")),
+             "+ NoL NoV stands below where − NoL NoV belongs");
+  const auto burley = [](const std::string& facing) {
+    return slips(audited(
+        "// roughness 0 1 0.5\n// albedo 0 1 0.8\nvec3 diffuse(vec3 n, vec3 v, vec3 l, float "
+        "roughness, vec3 albedo) { float NoL = dot(n, l), NoV = dot(n, v), LoH = dot(l, "
+        "normalize(l + v)), f = 2.0 * roughness * " +
+        facing +
+        " - 0.5; return albedo / 3.14159265358979 * (1.0 + f * pow(1.0 - NoL, 5.0)) * (1.0 + f * "
+        "pow(1.0 - NoV, 5.0)); }\n"));
+  };
+  EXPECT_EQ(burley("LoH * LoH"), "");
+  EXPECT_HAS(burley("LoH"), "VoH is not squared in F90");
+  const auto oren_nayar = [](const std::string& t) {
+    return slips(audited(
+        "// sigma 0 1 0.3\n// albedo 0 1 0.8\nvec3 diffuse(vec3 l, vec3 v, vec3 n, float sigma, "
+        "vec3 albedo) { float NoL = dot(n, l), NoV = dot(n, v), q = sigma * sigma, s = dot(l, v) - "
+        "NoL * NoV; return albedo * (1.0 - 0.5 * q / (q + 0.33) + 0.45 * q / (q + 0.09) * max(s, "
+        "0.0) / (s > 0.0 ? " +
+        t + "(NoL, NoV) : 1.0)) / 3.14159265358979; }\n"));
+  };
+  EXPECT_EQ(oren_nayar("max"), "");
+  EXPECT_HAS(oren_nayar("min"), "min stands where max belongs: s/max(NoL, NoV)");
+}
+
+TEST(Slips, ARootThatG1LacksAndASignInAGaussianOfFresnelAreNamed) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_HAS(
+      slips(audited("// alpha 0.05 1 0.4\nfloat G1(float NoV, float alpha) { float a2 = alpha "
+                    "* alpha; return 2.0 * NoV / (NoV + a2 + (1.0 - a2) * NoV * NoV); }\n")),
+      "the square root of Smith's masking is missing");
+  const auto gaussian = [](const std::string& sign) {
+    return slips(
+        audited("float F(float F0, float VoH) { return F0 + (1.0 - F0) * exp2((-5.55473 * "
+                "VoH " +
+                sign + " 6.98316) * VoH); }\n"));
+  };
+  EXPECT_EQ(gaussian("-"), "");
+  EXPECT_HAS(gaussian("+"), "+ 6.98316 stands where − 6.98316 belongs");
+}
+
+TEST(Slips, AnF0ThatIsMixedTwiceIsNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto with = [](const std::string& f0) {
+    return OwnSlips(model_of("vec3 albedo 0 1 0.5, float metallic 0 1 0, float roughness 0.1 1 0.4",
+                             "albedo * (1.0 - metallic) / PI + D_GGX(NoH, roughness * roughness) * "
+                             "V_Smith(NoL, NoV, roughness * roughness) * (" +
+                                 f0 + " + (1.0 - " + f0 + ") * p)"))
+        .slips;
+  };
+  EXPECT_EQ(with("mix(vec3(0.04), albedo, metallic)"), "");
+  EXPECT_HAS(with("mix(vec3(0.04), mix(vec3(0.04), albedo, metallic), metallic)"),
+             "its F0 is mixed twice");
+}
+
 }  // namespace
 }  // namespace gonio
