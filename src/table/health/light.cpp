@@ -7,7 +7,9 @@
 #include <optional>
 #include <utility>
 
+#include "base/few.h"
 #include "base/quantile.h"
+#include "base/text.h"
 #include "table/format/columns_command.h"
 #include "table/format/measured_by.h"
 

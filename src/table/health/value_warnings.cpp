@@ -6,6 +6,7 @@
 
 #include "base/few.h"
 #include "base/quantile.h"
+#include "table/format/measured_by.h"
 #include "table/health/cosine.h"
 #include "table/health/elevation.h"
 #include "table/health/light.h"
