@@ -41,10 +41,9 @@ std::vector<std::string> callers_with_pi(const std::string& path, const std::str
     for (const auto& block : c->module->functions().at(id).blocks)
       for (const auto& i : block.code) {
         calls = calls || (i.op == spv::OpFunctionCall && i.in[0] == called->second);
-        takes_pi =
-            takes_pi ||
-            ((i.op == spv::OpFMul || i.op == spv::OpFDiv || i.op == spv::OpVectorTimesScalar) &&
-             has_pi(i));
+        const std::array products{spv::OpFMul, spv::OpFDiv, spv::OpVectorTimesScalar,
+                                  spv::OpCompositeConstruct};  // a vector of π, which divides
+        takes_pi = takes_pi || (has_pi(i) && std::ranges::find(products, i.op) != products.end());
       }
     if (calls && takes_pi) all.push_back(name);
   }
