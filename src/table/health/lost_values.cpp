@@ -224,7 +224,7 @@ std::vector<double> lost_below(TableFacts& facts) {
     if (std::ranges::none_of(plane, [](double v) { return v > 0; })) return 0;
     if (floor > 0) return std::ranges::any_of(plane, [](double v) { return v < 0; }) ? floor : 0;
     std::size_t zeros = 0, coarse = 0, values = 0;
-    std::vector<double> beside;
+    std::vector<double> beside, apart;  // apart: how far its neighbours are from each other
     for (std::size_t i = 0; i < t.size(); i += step) {
       values += plane[i] >= 0;
       coarse += plane[i] > 0 && plane[i] < digits_of_one * rounding;
@@ -232,10 +232,16 @@ std::vector<double> lost_below(TableFacts& facts) {
       ++zeros;
       for (const std::size_t k : {i - 1, i + 1})
         if (k < t.size() && plane[k] > 0) beside.push_back(plane[k]);
+      if (i > 0 && i + 1 < t.size() && plane[i - 1] > 0 && plane[i + 1] > 0)
+        apart.push_back(std::abs(std::log(plane[i - 1] / plane[i + 1])));
     }
     if (rounding > 0 && is_coarse(zeros, coarse, values)) return std::sqrt(12) * rounding / 2;
     if (!(static_cast<double>(zeros) > many * static_cast<double>(values)) || beside.empty())
       return 0;
+    // Noise that takes values to 0 moves their neighbours, too: between smooth ones 0 is a mark of
+    // what is missing.
+    constexpr double smooth = 0.35;
+    if (!apart.empty() && median(apart) < smooth) return 0;
     return of_half * median(beside);
   };
   std::vector<double> lost;

@@ -18,7 +18,8 @@ void warn_of_zeros(TableFacts&, std::vector<std::string>& all);
 void warn_of_shared_ends(TableFacts&, std::vector<std::string>& all);
 
 /// Size of noise or digits below which each channel lost values [1/sr]: the noise floor that its negative values betray, or, where
-/// more than 2 % of its values are 0, what those beside them typically are.  Else 0.
+/// more than 2 % of its values are 0, what those beside them typically are.  Else 0, and where zeros stand between values that
+/// are alike: these are marks.
 std::vector<double> lost_below(TableFacts&);
 /// True where some channel lost values.
 inline bool is_any_lost(const std::vector<double>& lost) {

@@ -59,6 +59,15 @@ TEST(ValueWarnings, KnowHowLargeValuesAreThatNoiseTookAway) {
   EXPECT_FALSE(is_clipped(of_rounded));
 }
 
+TEST(ValueWarnings, TakeZerosBetweenSmoothValuesForMarks) {
+  Table t = painted(180, 0.1, 0.3);
+  std::mt19937 random(1);
+  for (auto& v : t.values[0])
+    if (random() % 20 == 0) v = 0;
+  TableFacts facts(t);
+  EXPECT_EQ(lost_below(facts), std::vector<double>{0});
+}
+
 TEST(ValueWarnings, KnowWhichChannelNoiseTookValuesFrom) {
   for (const bool clipped : {false, true}) {
     Table t = painted(180, 0.005, 0.15);
