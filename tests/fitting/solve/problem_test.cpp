@@ -53,7 +53,7 @@ TEST(Problem, TakesBoundsOfAColourThatAShaderMixesForItsThreeChannels) {
                "// f0 0 1 0.5\nvec3 brdf(vec3 N, vec3 L, vec3 V, vec3 f0) { return f0 + f0.yzx * "
                "dot(N, L) * dot(N, V); }\n");
   FitOptions o;
-  o.model = parse_model(folder / "mixed.glsl");
+  o.model = folder / "mixed.glsl";
   o.bounds = {{"f0", {0.1, 0.6}}};
   const Problem p = pose(synthesize(test::bind(paint, "kd=0.2", 3), {.layout = Layout::random}), o);
   for (const char* name : {"f0_r", "f0_g", "f0_b"})
