@@ -166,6 +166,10 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     // Of two widths, two values.
     for (const auto& a : known)
       p.push_back(values_between(a, places)[(k + (own.anisotropic ? 2 * p.size() : 0)) % places]);
+    constexpr double of_no_surface = 0.01;  // there Unreal's F90 is less than 1
+    for (std::size_t j = 0; j < known.size() && k == 0 && own.role() == Role::fresnel; ++j)
+      if (is_f0(known[j]))
+        p[j] = low_of(known[j]) + of_no_surface * (high_of(known[j]) - low_of(known[j]));
     bool is_legal = true;
     for (std::size_t j = 0; j < other.parameters.size(); ++j) {
       const auto from = pairing.of[j];

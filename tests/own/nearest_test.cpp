@@ -79,7 +79,7 @@ TEST(NearestForm, AFresnelFunctionIsKnownWhateverItsParametersAreCalled) {
   EXPECT_EQ(schlick("vec3 SpecularColor", "SpecularColor"), "fresnel.schlick");
   EXPECT_EQ(schlick("float ior", "(ior - 1.0) * (ior - 1.0) / ((ior + 1.0) * (ior + 1.0))"),
             "fresnel.schlick");
-  EXPECT_EQ(form_of("// SpecularColor 0 0.02 0.01\nvec3 F_Schlick(vec3 SpecularColor, float VoH) { "
+  EXPECT_EQ(form_of("vec3 F_Schlick(vec3 SpecularColor, float VoH) { "
                     "float p = pow(1.0 - VoH, "
                     "5.0); return clamp(50.0 * SpecularColor.g, 0.0, 1.0) * p + (1.0 - p) * "
                     "SpecularColor; }\n"),
