@@ -23,8 +23,9 @@ std::string weight_input(std::string_view name, std::string_view weight) {
   return fmt::format("<input name=\"{}\" type=\"float\" interfacename=\"{}\"/>\n", name, weight);
 }
 
+/// Of the first lobe, "" where a whole model is a function of a file.
 std::string_view fresnel_of(const BoundModel& m) {
-  return short_id(catalogue()[m.model.lobes[0].fresnel.term].id());
+  return m.model.lobes.empty() ? "" : short_id(catalogue()[m.model.lobes[0].fresnel.term].id());
 }
 /// Of one of the diffuse terms, "" where there is none.
 std::string_view diffuse_of(const BoundModel& m) {

@@ -44,6 +44,10 @@ Name parse_name(std::string_view token) {
         fmt::format("'{}' is no shader: expected a name that ends in .brdf, .glsl, .frag, "
                     ".hlsl or .spv",
                     printable(token, 80)));
+  if (printable(n.file) !=
+      n.file)  // it becomes a comment of shaders that are written, and a line of a terminal
+    throw wrong_usage(fmt::format("{}: a shader's path of letters that can be seen is expected",
+                                  printable(n.file, 200)));
   for (const auto& o : split(options, ';')) {
     if (o.empty()) continue;
     const auto equals = o.find('=');

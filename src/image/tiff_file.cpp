@@ -156,15 +156,16 @@ class TiffFile final : public ImageFile {
     const std::size_t down = (height_ + block_height_ - 1) / block_height_;
     for (std::uint32_t k = 0; k < blocks; ++k) {
       packed = std::max(packed, TIFFGetStrileByteCount(tiff_.get(), k));
-      if (packing != COMPRESSION_NONE) continue;
       const std::size_t rows_there =
           is_tiled_ ? block_height_ : std::min(block_height_, height_ - k % down * block_height_);
-      const std::uint64_t need = bytes / block_height_ * rows_there,
+      const std::uint64_t need =
+                              packing == COMPRESSION_NONE ? bytes / block_height_ * rows_there : 1,
                           there = number_at(in_, directory.counts.at + k * directory.counts.size,
                                             directory.counts.size);
-      if (there < need)
+      if (TIFFGetStrileOffset(tiff_.get(), k) == 0 || there < need)
         throw bad_input(path_, fmt::format("{} {}", is_tiled_ ? "tile" : "strip", k),
-                        fmt::format("{} bytes", there), fmt::format("{}", need));
+                        fmt::format("{} bytes", there),
+                        fmt::format("{} or more, at a place of their own", need));
     }
     if (bytes > most_packed_together || packed > 2 * bytes + few)
       throw bad_input(path_, "header",

@@ -215,6 +215,7 @@ TEST(TiffFile, WhoseStripsAreNotAllThereIsRefused) {
   EXPECT_HAS(said({.other_tags = {{{279, 4, 90}}}}), "found 2 places and 1 sizes");
   EXPECT_HAS(said({.rows_per_strip = 4, .other_tags = {{{279, 4, 60}}}}),
              "strip 0: found 60 bytes, expected 120");
+  EXPECT_HAS(said({.rows_per_strip = 4, .other_tags = {{{273, 4, 0}}}}), "at a place of their own");
 }
 
 TEST(TiffFile, WhoseTagsCountBeyondEveryNumberIsRefused) {
