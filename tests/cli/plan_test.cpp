@@ -66,25 +66,6 @@ TEST(PlanCommand, ShowsThePlanAsAPage) {
             json::parse(read_bytes(f / "plan.json")));
 }
 
-TEST(PlanCommand, WritesAMaterialThatIsAFunctionOfAFile) {
-  SKIP_WITHOUT_SHADERS;
-  const Folder f;
-  f.write("own.glsl",
-          "// alpha 0.05 1 0.3\n// kd 0 1 0.3\nfloat brdf(float NoL, float NoV, float NoH, float "
-          "alpha, float kd) {\n"
-          "  float a2 = alpha * alpha, d = NoH * NoH * (a2 - 1.0) + 1.0;\n"
-          "  return kd / 3.14159265 + 0.01 * a2 / (3.14159265 * d * d);\n}\n");
-  f.write("scene.json",
-          R"({"schema": "gonio.scene/1", "materials": {"m": {"model": "own.glsl:brdf"}},
-    "objects": [{"shape": "sphere", "material": "m"}],
-    "lights": [{"type": "directional", "direction": [0.5, 0.6, 0.62], "irradiance": [2, 2, 2]}],
-    "view": {"position": [0, 0, 10], "target": [0, 0, 0], "fov_deg": 20},
-    "tolerance": {"metric": "delta_e_2000", "quantile": 0.99, "limit": 1, "max": 4}})");
-  const auto o = gonio(f, "plan scene.json --write mtlx -o plan.json");
-  EXPECT_EQ(o.code, 0) << o.err;
-  EXPECT_NE(read_bytes(f / "plan.mtlx").find("highlight_all"), std::string::npos);
-}
-
 TEST(PlanCommand, WritesTheMaterialsForMaterialxBesideThePlan) {
   const Folder f;
   auto s = scene();
