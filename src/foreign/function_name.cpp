@@ -46,8 +46,7 @@ Name parse_name(std::string_view token) {
                     printable(token, 80)));
   if (printable(n.file) !=
       n.file)  // it becomes a comment of shaders that are written, and a line of a terminal
-    throw wrong_usage(fmt::format("{}: a shader's path of letters that can be seen is expected",
-                                  printable(n.file, 200)));
+    throw bad_input(n.file, "its name", "letters that cannot be seen", "others");
   for (const auto& o : split(options, ';')) {
     if (o.empty()) continue;
     const auto equals = o.find('=');

@@ -275,7 +275,7 @@ TEST(Function, SpirvOfEmptyStructsThatDoubleIsRefused) {
 }
 
 TEST(FunctionName, IsReadAndWritten) {
-  EXPECT_HAS(refusal([] { parse_name("z\nint evil;\n.glsl"); }), "letters that can be seen");
+  EXPECT_HAS(refusal([] { parse_name("z\nint evil;\n.glsl"); }), "letters that cannot be seen");
   EXPECT_HAS(refusal([] { parse_name("z\x1b[31m.glsl:f"); }), "z\\x1b[31m.glsl");
   const auto n = parse_name("a/b.glsl:f{argument.x=noh;includes=pi;alpha=0.1,1,0.5}");
   EXPECT_EQ(n.file, "a/b.glsl");
