@@ -1,6 +1,7 @@
 // What a page has not: files of shaders, and kernels for the functions in them. Everything that
 // would read one is refused by name.
 #include "base/error.h"
+#include "brdf/cost/model_operations.h"
 #include "brdf/function/any_function.h"
 #include "brdf/kernel/kernels.h"
 #include "brdf/model/own_files.h"
@@ -27,6 +28,9 @@ bool names_own_file(std::string_view) {
   return false;
 }
 std::vector<OwnFile> own_files(const std::vector<std::string>&, const std::string&) {
+  return {};
+}
+Operations operations_of(const foreign::Function&, std::size_t) {
   return {};
 }
 template <>
