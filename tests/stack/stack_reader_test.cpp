@@ -157,7 +157,8 @@ TEST(StackReader, SeesANearLampFromEachTexelAndMoreOfItsLightWhereItIsNearer) {
       EXPECT_NEAR(s.light[40 + t], lz / far, 1e-6);
       EXPECT_NEAR(s.view[t], -x / std::hypot(x, y, 9 - height), 1e-6);
       const double of_middle = 1 + 4 + 36;
-      const double expected = stack_value(0, 0, t) * 2 * (far * far / of_middle) / (lz / far);
+      const double expected =
+          2 * double{stack_value(0, 0, t)} * (far * far / of_middle) / (lz / far);
       EXPECT_NEAR(s.values[t], expected, 1e-5 * expected);
     }
   }
