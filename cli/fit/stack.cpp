@@ -34,7 +34,7 @@ struct StackCall : Common {
   bool linear = false;
 };
 
-/// What the images of a stack share.
+/// Size and kind of numbers that all images of a stack have.
 struct ImagesInCommon {
   Rectangle size;
   bool in_unit_range = true;  ///< their numbers go from 0 to 1

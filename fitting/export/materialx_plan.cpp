@@ -23,7 +23,7 @@ std::string weight_input(std::string_view name, std::string_view weight) {
   return fmt::format("<input name=\"{}\" type=\"float\" interfacename=\"{}\"/>\n", name, weight);
 }
 
-/// Of the first lobe, "" where a whole model is a function of a file.
+/// Short id of the first lobe's Fresnel term; "" where a function of a file is the whole model.
 std::string_view fresnel_of(const BoundModel& m) {
   return m.model.lobes.empty() ? "" : short_id(catalogue()[m.model.lobes[0].fresnel.term].id());
 }

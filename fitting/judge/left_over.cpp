@@ -285,7 +285,7 @@ bool find_variances(Left& left) {
     return logs - n * std::log(scale * scale);
   };
   Noise kind = badness(of_one_size) < badness(relative) ? of_one_size : relative;
-  // What a wrong model leaves may grow towards grazing, too.
+  // A wrong model's residuals may grow towards grazing, too.
   constexpr double clearly = 6;  // twice the logarithm of the likelihoods' ratio
   residuals = without_smooth(left);
   if (badness(over_cosine) < std::min(badness(of_one_size), badness(relative)) - clearly)

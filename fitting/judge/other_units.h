@@ -11,7 +11,7 @@
 
 namespace gonio {
 
-/// What values are, if the model is right, instead of f in 1/sr.
+/// Unit or scale that makes the values fit the model, in place of f in 1/sr.
 struct OtherUnit {
   std::string step;  ///< what they may be, with the command that reads them so
   double log_rms;    ///< that the model leaves of them

@@ -588,7 +588,7 @@ function sphere_words(model, table) {
   const [median, p95, covered] = numbers(room.f, 3);
   return covered > 0.3 ? ` Their spheres differ${wide_lamp() < 0 ? "" : ` under ${catalogue.lights[0]}`} by ΔE2000 ${median.toFixed(1)}, 95 % of the pixels by at most ${p95.toFixed(1)}.` : "";
 }
-/// What a fit may have left out, and this comparison has not.
+/// Says that the comparison counts samples which the fit left out.
 const beside_fit = (model, table) => (model.fit?.file === table.name && model.fit.log_rms !== undefined ? `, those too that the fit leaves out${model.fit.left_out ? ` by ${model.fit.left_out}` : ""}` : "");
 /// What is on screen in words.
 function show_facts() {

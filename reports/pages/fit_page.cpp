@@ -144,7 +144,7 @@ Points warnings(const FitDocument& d,
     for (const auto& [of, changes] : s.relative_change)
       for (const double x : changes)
         if (std::abs(x) > std::abs(most)) name = of, most = x;
-    const auto here = log_rms_text(d.residuals.log_rms), there = log_rms_text(s.log_rms);
+    const auto here = significant(d.residuals.log_rms), there = significant(s.log_rms);
     if (std::abs(most) > 0.01)
       warn("Where samples sit in their bins matters:",
            fmt::format(
@@ -329,7 +329,7 @@ std::string fit_page_html(const FitDocument& d,
                         d.misfit.told           ? " by"
                         : d.misfit.outliers > 0 ? ", to"
                                                 : " to",
-                        factor_text(log_rms), log_rms_text(log_rms),
+                        factor_text(log_rms), significant(log_rms),
                         d.solver.termination == "converged" ? "converged" : "**did not converge**",
                         !p.has_lobe && !parse_model(d.model).lobes.empty()
                             ? " Numbers and pictures are of the fit without the lobe."
@@ -348,7 +348,7 @@ std::string fit_page_html(const FitDocument& d,
   };
   out.first.emplace_back(Pairs{
       {{"typical factor", factor_text(log_rms)},
-       {"log RMS", log_rms_text(log_rms)},
+       {"log RMS", significant(log_rms)},
        {"RMS", beside(significant(d.residuals.rms), "1/sr")},
        {"values used", beside(count_text(d.values_used), "of " + count_text(all_values))},
        {"metric", beside(words(d.metric), d.robust == "none" ? "" : "robust: " + words(d.robust))},

@@ -17,9 +17,6 @@ namespace gonio::fit_sections {
 using namespace page;
 using page::Group;
 
-std::string log_rms_text(double x) {
-  return significant(x);
-}
 namespace {
 
 /// Rows of the correlations that are of known parameters.
@@ -366,7 +363,7 @@ Section confidence(const FitDocument& d, Pictures& pictures) {
       for (const double x : changes) texts.push_back(known(x) ? signed_percent(x) : "–");
       t.add("`" + name + "`", fmt::to_string(fmt::join(texts, ", ")));
     }
-    t.add("log RMS then", log_rms_text(s.log_rms));
+    t.add("log RMS then", significant(s.log_rms));
     beside.parts.emplace_back(Group{
         "",
         {Subtitle{fmt::format("If samples sat at the {} of their bins", s.other)}, std::move(t)}});

@@ -17,7 +17,6 @@ namespace gonio::fit_sections {
 inline bool known(double x) {
   return std::isfinite(x);
 }
-std::string log_rms_text(double);
 
 /// Two parameters and their correlation.
 struct Tied {

@@ -44,8 +44,8 @@ Name parse_name(std::string_view token) {
         fmt::format("'{}' is no shader: expected a name that ends in .brdf, .glsl, .frag, "
                     ".hlsl or .spv",
                     printable(token, 80)));
-  if (printable(n.file) !=
-      n.file)  // it becomes a comment of shaders that are written, and a line of a terminal
+  // It becomes a comment in shaders that gonio writes, and a line on a terminal.
+  if (printable(n.file) != n.file)
     throw bad_input(n.file, "its name", "letters that cannot be seen", "others");
   for (const auto& o : split(options, ';')) {
     if (o.empty()) continue;

@@ -35,15 +35,22 @@ namespace {
 constexpr std::uint64_t most_directory_bytes = std::uint64_t{1} << 24,
                         most_packed_together = std::uint64_t{1} << 27;
 
-std::uint64_t number_at(const InputFile& in, std::uint64_t at, std::size_t n) {
-  std::array<unsigned char, 8> bytes{};
-  char order = 0;
-  in.read_at(0, &order, 1);
-  in.read_at(at, bytes.data(), n);
-  std::uint64_t v = 0;
-  for (std::size_t k = 0; k < n; ++k) v = v << 8U | bytes[order == 'I' ? n - 1 - k : k];
-  return v;
-}
+/// Whole numbers of a file, in its own order of bytes.
+class WholeNumbers {
+ public:
+  explicit WholeNumbers(const InputFile& in) : in_(in) { in.read_at(0, &order_, 1); }
+  std::uint64_t operator()(std::uint64_t at, std::size_t n) const {
+    std::array<unsigned char, 8> bytes{};
+    in_.read_at(at, bytes.data(), n);
+    std::uint64_t v = 0;
+    for (std::size_t k = 0; k < n; ++k) v = v << 8U | bytes[order_ == 'I' ? n - 1 - k : k];
+    return v;
+  }
+
+ private:
+  const InputFile& in_;
+  char order_ = 0;
+};
 
 /// What the first directory says, where libtiff mends what it does not say.
 struct Directory {
@@ -58,7 +65,7 @@ struct Directory {
 /// Reads the first directory.  libtiff keeps what each entry claims to be, even where many claim the same bytes of the file: more than
 /// `most_directory_bytes`, or 1000 entries, are refused.
 Directory directory_of(const InputFile& in) {
-  const auto number = [&](std::uint64_t at, std::size_t n) { return number_at(in, at, n); };
+  const WholeNumbers number(in);
   const bool big = number(2, 2) == TIFF_VERSION_BIG;
   const std::size_t word = big ? 8 : 4, before = big ? 8 : 2;
   const std::uint64_t begin = number(word, word), entries = number(begin, before);
@@ -154,13 +161,14 @@ class TiffFile final : public ImageFile {
                                   directory.offsets.count, directory.counts.count),
                       fmt::format("{} of each", blocks));
     const std::size_t down = (height_ + block_height_ - 1) / block_height_;
+    const WholeNumbers number_at(in_);
     for (std::uint32_t k = 0; k < blocks; ++k) {
       packed = std::max(packed, TIFFGetStrileByteCount(tiff_.get(), k));
       const std::size_t rows_there =
           is_tiled_ ? block_height_ : std::min(block_height_, height_ - k % down * block_height_);
       const std::uint64_t need =
                               packing == COMPRESSION_NONE ? bytes / block_height_ * rows_there : 1,
-                          there = number_at(in_, directory.counts.at + k * directory.counts.size,
+                          there = number_at(directory.counts.at + k * directory.counts.size,
                                             directory.counts.size);
       if (TIFFGetStrileOffset(tiff_.get(), k) == 0 || there < need)
         throw bad_input(path_, fmt::format("{} {}", is_tiled_ ? "tile" : "strip", k),

@@ -219,8 +219,10 @@ TEST(TiffFile, WhoseStripsAreNotAllThereIsRefused) {
 }
 
 TEST(TiffFile, WhoseTagsCountBeyondEveryNumberIsRefused) {
-  // A BigTIFF of one tag: a sum of counts that wraps around would let others pass.
-  std::string bytes("II+\0\x08\0\0\0\x10\0\0\0\0\0\0\0\x01\0\0\0\0\0\0\0", 24);
+  // A BigTIFF of two tags, whose counts add up to 2^64: a sum that wraps around would let others
+  // pass.
+  std::string bytes("II+\0\x08\0\0\0\x10\0\0\0\0\0\0\0\x02\0\0\0\0\0\0\0", 24);
+  bytes += std::string("\xe7\xfd\x01\0\x01", 5) + std::string(15, '\0');
   bytes += std::string("\xe8\xfd\x01\0", 4) + std::string(8, '\xff') + std::string(16, '\0');
   const Folder f;
   f.write("a.tif", bytes);

@@ -350,19 +350,32 @@ TEST(Undetermined, TwoSamplesTellNoInterval) {
       EXPECT_TRUE(std::isnan(q.ci95_low[c])) << q.name;
 }
 
+/// Fit of a model to 200 samples of its own.
+struct OwnFit {
+  OwnFit(const BoundModel& truth, double noise)
+      : table(synthesize(truth, {.layout = Layout::random, .samples = 200, .noise = noise})),
+        options{.model = to_text(truth.model.spec)},
+        p(pose(table, options)),
+        data(fit_data<double>(Sampling(table, Bins::centre, Metric::log, 0, false))),
+        f(minimise(p, data, truth, no_huber)) {
+    f.groups = data.groups;
+  }
+  OwnFit(const OwnFit&) = delete;
+  OwnFit& operator=(const OwnFit&) = delete;
+
+  const Table table;
+  const FitOptions options;
+  const Problem p;
+  const FitData<double> data;
+  Fitted f;
+};
+
 TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
-  const auto truth = test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.5", 1);
-  const Table t = synthesize(truth, {.layout = Layout::random, .samples = 200, .noise = 0.02});
-  FitOptions o;
-  o.model = to_text(truth.model.spec);
-  const Problem p = pose(t, o);
-  const auto data = fit_data<double>(Sampling(t, Bins::centre, Metric::log, 0, false));
-  Fitted f = minimise(p, data, truth, no_huber);
-  f.groups = data.groups;
+  const OwnFit own(test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.5", 1), 0.02);
   for (const bool widened : {false, true}) {
     Uncertainty u(2);
     for (auto& v : u.verdicts) v.std_error = 10, v.t = 2, v.freedom = 100, v.variance = 1e9;
-    find_undetermined(p, data, f, counted, widened, u);
+    find_undetermined(own.p, own.data, own.f, counted, widened, u);
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(u[i].status,
                 widened ? ParameterStatus::unbounded : ParameterStatus::not_identifiable);
@@ -372,20 +385,13 @@ TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
 }
 
 TEST(Undetermined, WhatStandsAtABoundIsUnboundedWhereOnlyAMisfitLeavesItOpen) {
-  const auto truth =
-      test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.5,kd=0", 1);
-  const Table t = synthesize(truth, {.layout = Layout::random, .samples = 200, .noise = 0});
-  FitOptions o;
-  o.model = to_text(truth.model.spec);
-  const Problem p = pose(t, o);
-  const auto data = fit_data<double>(Sampling(t, Bins::centre, Metric::log, 0, false));
-  Fitted f = minimise(p, data, truth, no_huber);
-  f.groups = data.groups;
+  const OwnFit own(
+      test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.5,kd=0", 1), 0);
   for (const bool widened : {false, true}) {
     Uncertainty u(3);
     for (auto& v : u.verdicts) v.std_error = 1e-6, v.t = 2, v.freedom = 100, v.variance = 1e-12;
     u[0].status = ParameterStatus::at_bound, u[0].variance = 1e9;
-    find_undetermined(p, data, f, counted, widened, u);
+    find_undetermined(own.p, own.data, own.f, counted, widened, u);
     EXPECT_EQ(u[0].status, widened ? ParameterStatus::unbounded : ParameterStatus::not_identifiable)
         << u[0].reason;
   }
