@@ -8,6 +8,7 @@
 #include "base/error.h"
 #include "base/file.h"
 #include "base/json/describe.h"
+#include "base/text.h"
 #include "fitting/batch/preview_json.h"
 #include "fitting/result/document_fields.h"
 
@@ -293,6 +294,23 @@ std::size_t memory_of(const ReadDocument& d) {
   return all;
 }
 
+/// Throws bad_input where a curve has not one value for each place.
+void check_curve(const std::string& path, const Thumbnail& t) {
+  const auto check = [&](const char* name, const std::vector<std::vector<double>>& rows,
+                         const std::vector<double>& places) {
+    const std::string place = fmt::format("/batch/preview/curve/{}", name);
+    if (rows.size() != t.channels.size())
+      throw bad_input(path, place, counted(rows.size(), "row"),
+                      fmt::format("{}, one for each channel", t.channels.size()));
+    for (const auto& row : rows)
+      if (row.size() != places.size())
+        throw bad_input(path, place, counted(row.size(), "value"),
+                        fmt::format("{}, one for each place", places.size()));
+  };
+  check("data", t.data, t.data_deg);
+  check("model", t.model, t.model_deg);
+}
+
 std::optional<ReadDocument> parse_document(const std::string& path, const std::string& bytes) {
   const JsonDocument document(path, bytes);
   const JsonReader& root = document.root();
@@ -306,6 +324,7 @@ std::optional<ReadDocument> parse_document(const std::string& path, const std::s
   if (schema != "gonio.fit/1" || !root.has("batch")) return {};
   KeptFit k;
   read_record(root, k);
+  if (k.preview.curve) check_curve(path, *k.preview.curve);
   const Exit outcome = k.termination == "converged" ? Exit::done : Exit::not_converged;
   ReadDocument d{{std::move(k.path), "", outcome, std::move(k.message), std::move(k.fit),
                   std::move(k.preview)},

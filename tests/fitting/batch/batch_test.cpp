@@ -17,6 +17,8 @@ namespace gonio {
 namespace {
 
 namespace fs = std::filesystem;
+/// By which a page is known for one of gonio's.
+const std::string head = R"(<meta name="generator" content="gonio">)";
 
 // --- The key of a kept result ---
 
@@ -206,14 +208,14 @@ TEST(Batch, TellsItsProgressAndKeepsWhatItHas) {
   b.how.options.model = "lambert";
   std::vector<std::size_t> done;
   const BatchHooks hooks{[&](const BatchCount& n) { done.push_back(n.done); },
-                         [](const BatchSummary&, const std::string& title) { return title; },
+                         [](const BatchSummary&, const std::string& title) { return head + title; },
                          {}};
   const auto first = fit_batch(b, hooks);
   EXPECT_EQ(done, (std::vector<std::size_t>{0, 1, 2}));
   EXPECT_EQ(first.count.failed, 1U);
   EXPECT_EQ(first.count.kept, 0U);
   EXPECT_EQ(first.outcome(), Exit::bad_input);
-  EXPECT_EQ(test::read_bytes(f / "out/summary.html"), "out");
+  EXPECT_EQ(test::read_bytes(f / "out/summary.html"), head + "out");
   EXPECT_EQ(fit_batch(b, hooks).count.kept, 1U);
   b.how.options.bin_sensitivity = false;
   EXPECT_EQ(fit_batch(b, hooks).count.kept, 0U);
@@ -242,16 +244,15 @@ TEST(Batch, MakesAPageOfEachTableWhereAskedAndKeepsItWithItsDocument) {
   b.how.options.model = "lambert";
   BatchHooks hooks;
   EXPECT_EQ(fit_batch(b, hooks).rows[0].page, "") << "none was asked for";
-  hooks.page = [](const BatchSummary& s, const std::string&) { return s.rows[0].page; };
-  const std::string head = R"(<meta name="generator" content="gonio">)";
-  hooks.table_page = [&](const FittedFile& file) { return head + file.table.path; };
+  hooks.page = [](const BatchSummary& s, const std::string&) { return head + s.rows[0].page; };
+  hooks.table_page = [](const FittedFile& file) { return head + file.table.path; };
   const auto first = fit_batch(b, hooks);
   EXPECT_EQ(first.count.kept, 0U) << "their pages are missing";
   EXPECT_EQ(first.rows[0].page, "a.fit.html");
   EXPECT_EQ(first.rows[2].page, "") << "it could not be read";
   EXPECT_EQ(test::read_bytes(f / "out/a.fit.html"), head + (f / "a.csv"));
   EXPECT_EQ(test::read_bytes(f / "out/summary.fit.html"), head + (f / "summary.csv"));
-  EXPECT_EQ(test::read_bytes(f / "out/summary.html"), "a.fit.html");
+  EXPECT_EQ(test::read_bytes(f / "out/summary.html"), head + "a.fit.html");
   const auto second = fit_batch(b, hooks);
   EXPECT_EQ(second.count.kept, 2U);
   EXPECT_EQ(second.rows[0].page, "a.fit.html");
@@ -305,8 +306,18 @@ TEST(Batch, ReplacesNoFileThatNoBatchMade) {
   }
   fs::remove_all(f / "out");
   fit_batch({{f / "a.csv"}, f / "out", {}}, hooks);
-  f.write("out/a.json", "half a document");  // that an earlier batch was to make
+  f.write("out/a.json", R"({"schema": "gonio.fit/1", "mo)");  // that an earlier batch was to make
   EXPECT_NO_THROW(fit_batch({{f / "a.csv"}, f / "out", {}}, hooks));
+  for (const char* name : {"a.json", "summary.csv"}) {
+    const test::Folder results;
+    fs::copy(f / "out", results / "out");
+    results.write(std::string("out/") + name, R"({"mine": true})");
+    EXPECT_HAS(test::refusal([&] {
+                 fit_batch({{f / "a.csv"}, results / "out", {}}, hooks);
+               }),
+               "a file that no batch made")
+        << "beside results of its own";
+  }
 }
 
 TEST(Batch, WritesThroughNoLink) {

@@ -183,6 +183,24 @@ TEST(Gather, ReplacesNoSummaryOfSomebodyElse) {
   }
 }
 
+TEST(Gather, ReadsNoCurveWithoutOneValueForEachPlace) {
+  for (const char* list : {"data", "model"})
+    for (const bool longer : {false, true}) {
+      const Tables t;
+      t.fit({t.paths[0]});
+      auto document = json::parse(test::read_bytes(t.out + "/a.json"));
+      auto& row = document["batch"]["preview"]["curve"][list][0];
+      if (longer)
+        row.push_back(1);
+      else
+        row = json::array();
+      t.f.write("out/a.json", document.dump());
+      const auto s = gather(t.out, {}, {});
+      ASSERT_EQ(s.left_out.size(), 1) << list << longer;
+      EXPECT_HAS(s.left_out[0].message, std::string("/batch/preview/curve/") + list);
+    }
+}
+
 TEST(Gather, ASideFileIsNoOtherWayOfMakingIt) {
   const Tables t;
   t.f.write("b.csv.gonio.json", R"({"schema": "gonio.table/1", "notes": {"by": "hand"}})");
@@ -246,10 +264,13 @@ TEST(Gather, RefusesAFolderWithNothingOfABatch) {
 TEST(Gather, NamesItsPageAfterTheFolder) {
   const Tables t;
   t.fit({t.paths[0]});
-  const SummaryPage title = [](const BatchSummary&, const std::string& name) { return name; };
+  const std::string own = R"(<meta name="generator" content="gonio">)";
+  const SummaryPage title = [&](const BatchSummary&, const std::string& name) {
+    return own + name;
+  };
   for (const char* ending : {"", "/", "/."}) {
     gather(t.out + ending, {}, title);
-    EXPECT_EQ(test::read_bytes(t.out + "/summary.html"), "out") << ending;
+    EXPECT_EQ(test::read_bytes(t.out + "/summary.html"), own + "out") << ending;
   }
 }
 
