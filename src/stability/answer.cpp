@@ -99,8 +99,9 @@ void prove_into(Answer& a, const Question& q) {
     a.counterexample->value = c->value;  // of any GPU that of one which flushes
   }
   if (a.evidence != Evidence::open) return;
-  a.unproved_because = proof.out_of_budget ? "out of boxes" : "inputs cannot be told apart further";
-  if (!proof.open.empty()) a.unproved_because += "; " + proof.open[0].text(q.subject);
+  a.unproved_because =
+      proof.out_of_budget ? "the proof ran out of boxes" : "inputs cannot be told apart further";
+  if (!proof.open.empty()) a.unproved_because += "; open is " + proof.open[0].text(q.subject);
 }
 
 /// Proof of a bound of the relative error; of all inputs but the ends that it leaves out it holds, and then the rest is open.

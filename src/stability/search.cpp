@@ -444,10 +444,29 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   looked.settled = agree(one.relative.value, two.relative.value, few) &&
                    agree(one.beyond.value, two.beyond.value, 8);
   one.met.add(two.met);
+  // What a search calls safe is searched by itself: there is less of it to look at.
+  constexpr std::size_t most_rounds = 4;
+  std::vector<Found> above;
+  for (std::size_t round = 1; s.decides && !s.narrows && round <= most_rounds; ++round) {
+    const auto broken = one.met.broken[0];
+    const auto next = broken ? domain.above(*s.decides, *broken) : std::nullopt;
+    if (judge.wide() || !judge.measures_errors() || !next) break;
+    Subject safe = s;
+    safe.inputs[*s.decides].domain.low = *next;
+    constexpr std::uint64_t stream = 1'000'003;
+    above.push_back(from_one_seed(safe, judge, Domain(safe, a.number),
+                                  2 * options.seed + round * stream, effort / 2));
+    one.met.add(above.back().met);
+    if (one.met.broken[0] == broken) break;
+  }
   const auto worse = [](const Worst& x, const Worst& y) { return x.value < y.value ? y : x; };
-  looked.relative = worse(one.relative, two.relative);
-  looked.ulp = worse(one.ulp, two.ulp);
-  looked.beyond = worse(one.beyond, two.beyond);
+  above.push_back(two);
+  looked.relative = one.relative, looked.ulp = one.ulp, looked.beyond = one.beyond;
+  for (const auto& found : above) {
+    looked.relative = worse(looked.relative, found.relative);
+    looked.ulp = worse(looked.ulp, found.ulp);
+    looked.beyond = worse(looked.beyond, found.beyond);
+  }
   if (a.number == Number::half && !looked.relative.at.empty()) {
     half_flags = {};
     value_of(s, a, looked.relative.at);

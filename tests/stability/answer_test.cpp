@@ -345,7 +345,8 @@ TEST(StabilityAnswer, OnAnyGpuThatStaysOpenSaysWhy) {
   finite.boxes = 10;
   const auto f = answer(on_any_gpu(finite));
   EXPECT_EQ(f.evidence, Evidence::open);
-  EXPECT_NE(f.unproved_because.find("out of boxes; eta "), std::string::npos) << f.unproved_because;
+  EXPECT_NE(f.unproved_because.find("the proof ran out of boxes; open is eta "), std::string::npos)
+      << f.unproved_because;
 }
 
 TEST(StabilityAnswer, OnAnyGpuRefusesNumbersAndLibertiesThatItHasNoRuleFor) {
