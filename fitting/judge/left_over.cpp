@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <map>
 #include <numeric>
+#include <set>
+#include <tuple>
 #include <utility>
 
 #include "base/quantile.h"
@@ -115,6 +117,23 @@ class AngleNumbers {
   std::array<std::map<Key, std::size_t>, shared_angles> numbers_;
 };
 
+/// Readings that stand in a table twice: the same value where an isotropic reciprocal model has one.
+class Readings {
+ public:
+  explicit Readings(bool has_frame) : has_frame_(has_frame) {}
+  /// True the first time.
+  bool is_new(const Angles<double>& a, std::size_t channel, double y) {
+    if (has_frame_) return true;  // to which directions of one half vector differ
+    const auto place = [](double cosine) { return std::lround(1e8 * cosine); };
+    const auto [low, high] = std::minmax(a.nol, a.nov);
+    return seen_.emplace(place(low), place(high), place(a.voh), channel, y).second;
+  }
+
+ private:
+  bool has_frame_;
+  std::set<std::tuple<long, long, long, std::size_t, double>> seen_;
+};
+
 }  // namespace
 
 double row_edge(std::size_t k) {
@@ -147,6 +166,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
   for (const auto& [slot, number] : numbers) all.slots[number] = slot;
 
   AngleNumbers numbers_of(s);
+  Readings readings(s.has_frame());
   const auto offset = s.link_offset();
   const FileRounding rounding = rounding_of(s.table());
   const std::size_t members = s.groups().widest();
@@ -175,10 +195,11 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
             const double f_seen = faint ? least : value[i],
                          slope_seen = faint ? 1 / least : slope[i];
             if (!std::isfinite(r) || !std::isfinite(slope_seen) || (faint && r == 0)) continue;
+            const Angles<double> a{x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]};
+            if (!readings.is_new(a, c, data.y[i])) continue;
             auto& unit = unit_of[m * in.size() + i];
             if (unit == no_unit) {
               unit = all.units.size();
-              const Angles<double> a{x.nol[i], x.nov[i], x.noh[i], x.voh[i], x.sin2_theta_h[i]};
               const std::size_t sample = in.sample(m)[i];
               all.units.push_back({functions(a), cell_of(a), numbers_of(sample, in.nol(m)[i]),
                                    s.count_of(sample), x.nov[i]});

@@ -106,6 +106,7 @@ class Steps {
 std::vector<std::string> others_of(const ModelSpec& spec) {
   const std::string& diffuse = spec.diffuse;
   std::vector<std::string> all;
+  if (diffuse.empty()) all.push_back(with_diffuse(spec, "lambert"));
   if (diffuse == "lambert" || diffuse == "lambert.coupled")
     for (const std::string_view other : {"eon", "disney", "lambert.coupled"})
       if (diffuse != other && (!spec.lobes.empty() || other != "lambert.coupled"))
@@ -159,7 +160,7 @@ bool add_models(Steps& steps,
                 std::string& otherwise) {
   constexpr double worth = 1 / 3.0;   // of the misfit's square
   constexpr double as_well = 1.02;    // log RMS, of the least
-  constexpr double shows = 0.95;      // log RMS, of what it is
+  constexpr double shows = 0.9;       // log RMS, of what it is
   constexpr double near_best = 1.25;  // log RMS, of the least: what leaves more mends less
   constexpr std::size_t few = 3;
   const double here = attempt(needless ? less : d.model), misfit = d.misfit.size * d.misfit.size;

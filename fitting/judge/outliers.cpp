@@ -20,6 +20,12 @@ constexpr double to_sigma = 1.4826;
 struct Placed {
   double theta_h, theta_d, grazing;  ///< smooth functions of these angles
   double off;                        ///< ln of data over model
+  double rounded;                    ///< standard deviation of that by the datum's digits
+
+  /// How far off it must be to stand out from others of a robust standard deviation.
+  double far(double sigma) const {
+    return std::max(far_off * std::max(sigma, rounded), worth_telling);
+  }
 };
 double distance(const Placed& a, const Placed& b) {
   const double h = a.theta_h - b.theta_h, d = a.theta_d - b.theta_d;
@@ -55,7 +61,7 @@ double alone(std::span<const Placed> all, std::size_t i, double sigma) {
   if (std::ranges::min(beyond) < some) return 0;
   const Spread there = spread(off);
   const double by = all[i].off - there.middle;
-  return std::abs(by) > std::max(far_off * std::max(sigma, there.sigma), worth_telling) ? by : 0;
+  return std::abs(by) > all[i].far(std::max(sigma, there.sigma)) ? by : 0;
 }
 
 }  // namespace
@@ -71,7 +77,7 @@ std::optional<Outliers> outliers(const Left& left) {
     const Value& v = left.values[i];
     if (!(v.change > 0)) continue;
     const auto& of = left.units[v.unit].functions;
-    placed[v.channel].push_back({of[1], of[2], of[8], -v.whole / v.change});
+    placed[v.channel].push_back({of[1], of[2], of[8], -v.whole / v.change, v.rounding / v.change});
     number[v.channel].push_back(i);
     all.push_back(placed[v.channel].back().off);
     squares += v.whole * v.whole;
@@ -81,8 +87,7 @@ std::optional<Outliers> outliers(const Left& left) {
   std::vector<std::array<std::size_t, 2>> far;
   for (std::size_t c = 0; c < placed.size(); ++c)
     for (std::size_t i = 0; placed[c].size() > 2 * around && i < placed[c].size(); ++i)
-      if (std::abs(placed[c][i].off - middle) > std::max(far_off * sigma, worth_telling))
-        far.push_back({c, i});
+      if (std::abs(placed[c][i].off - middle) > placed[c][i].far(sigma)) far.push_back({c, i});
   // Each costs one pass over its channel: of many some are asked, and speak for the others.
   const std::size_t step = far.size() / most_asked + 1;
   double of_them = 0, farthest = 0, of_retro = 0;

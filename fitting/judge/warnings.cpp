@@ -222,6 +222,12 @@ std::vector<std::string> physics_in_words(const Physics& p) {
   return all;
 }
 
+std::string deviation_in_words(double ratio) {
+  if (!(ratio > 0)) return "dark beside the table";
+  return fmt::format("too {} by a factor of {}", ratio > 1 ? "bright" : "dark",
+                     typical_factor(std::abs(std::log(ratio))));
+}
+
 std::vector<std::string> misfit_in_words(const Misfit& m) {
   if (!m.told) return {};
   std::string size = typical_factor(m.size);
@@ -232,16 +238,11 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
   std::vector<std::string> all{"beyond noise the model is off by a factor of " + size +
                                "; intervals allow for it"};
   if (const auto& c = m.worst_cell)
-    all.push_back(
-        fmt::format("the largest systematic deviation is near theta_h {:.2g}°, theta_d {:.2g}°: "
-                    "the model is {}",
-                    (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
-                    (c->theta_d_from_deg + c->theta_d_to_deg) / 2,
-                    c->difference > 1 ? factor(1 + c->difference) + " times as bright as the table"
-                    : c->difference > 0    ? percent(c->difference) + " too bright"
-                    : c->difference > -0.5 ? percent(-c->difference) + " too dark"
-                    : c->difference > -1   ? factor(1 / (1 + c->difference)) + " times too dark"
-                                           : "dark beside the table"));
+    all.push_back(fmt::format(
+        "the largest systematic deviation is near theta_h {:.2g}°, theta_d {:.2g}°: "
+        "the model is {}",
+        (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
+        (c->theta_d_from_deg + c->theta_d_to_deg) / 2, deviation_in_words(1 + c->difference)));
   return all;
 }
 

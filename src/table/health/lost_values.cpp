@@ -94,6 +94,12 @@ struct SharedEnd {
 };
 std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
   const SampleAngles at(t);
+  const FileRounding rounding = rounding_of(t);
+  // Of values of few digits many are equal.
+  const auto is_coarse_step = [](double sigma, double value) {
+    constexpr double coarse = 0.006;
+    return sigma > coarse * value;
+  };
   const std::size_t step = t.size() / 60'000 + 1;
   std::map<double, std::pair<std::vector<double>, std::vector<std::string>>> with_end;
   for (std::size_t c = 0; c < t.values.size(); ++c) {
@@ -110,6 +116,7 @@ std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
   std::vector<SharedEnd> all;
   for (auto& [end, found] : with_end) {
     auto& [values, channels] = found;
+    if (greatest && is_coarse_step(rounding.of(end), end)) continue;
     std::ranges::sort(values);
     if (greatest) std::ranges::reverse(values);
     const auto is_near = [&, last = end](double v) {
@@ -119,6 +126,11 @@ std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
       all.push_back({end, n, values.size(), std::move(channels)});
   }
   return all;
+}
+
+/// A base that nearly all values share has no noise that could have been clipped.
+bool is_base(const SharedEnd& e) {
+  return 4 * e.sharers > 3 * e.values;
 }
 
 /// The least value, where that many share it and noise goes on above.
@@ -131,7 +143,7 @@ std::optional<SharedEnd> clipped_end(TableFacts& facts) {
         above.push_back(std::abs(d.more));
     constexpr std::size_t few = 8;
     constexpr double noisy = 0.1;
-    if (above.size() >= few && median(above) > noisy) return std::move(e);
+    if (above.size() >= few && median(above) > noisy && !is_base(e)) return std::move(e);
   }
   return {};
 }
