@@ -1,5 +1,6 @@
 // The validation as JSON and as a page.
 #include <algorithm>
+#include <filesystem>
 
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
@@ -98,10 +99,11 @@ std::string validation_page_html(const Validation& v) {
   const auto limits = [&](std::string_view budget) {
     return std::ranges::find(v.budgets, budget, &BudgetCheck::budget) != v.budgets.end();
   };
-  Page out{"", "validate", "Before you ship", broken ? "Not yet" : "Ready to ship"};
-  out.findings = {
-      broken ? fmt::format("The choice breaks {} of {}.", broken, many(v.budgets.size(), "budget"))
-             : "The choice keeps every budget."};
+  const auto file = std::filesystem::path(v.path).filename().string();
+  Page out{"", "validate", "Before you ship",
+           broken
+               ? fmt::format("{} breaks {} of {}", file, broken, many(v.budgets.size(), "budget"))
+               : fmt::format("{} keeps every budget", file)};
   for (const auto& b : v.budgets)
     if (!b.holds && out.findings.size() < 4) out.findings.push_back(sentence(b));
   if (limits("reciprocity") && limits("energy_loss"))
@@ -144,8 +146,8 @@ std::string validation_page_html(const Validation& v) {
   if (!names.empty())
     out.sections.push_back(
         {"Parameters",
-         "The values of the choice reach model and reference, unless `reference_parameters` or the "
-         "domain set it.",
+         "Model and reference both take the values of the choice, but for those that "
+         "`reference_parameters` or the domain set.",
          {parameters}});
   const auto code = [](const std::string& text) { return text.empty() ? text : "`" + text + "`"; };
   out.sections.push_back({"The choice",
@@ -156,8 +158,8 @@ std::string validation_page_html(const Validation& v) {
                                   {"reference", code(v.reference)},
                                   {"file", code(v.path)}}}}});
   out.setting =
-      "Albedos and colours are of the formula in double. The losses of the number are in the "
-      "budget of inputs without a value, and in `gonio stability`.";
+      "Albedos and colours are of the formula in double. What the shader's number rounds away is "
+      "judged only by the budget of inputs without a value, and by `gonio stability`.";
   return page_html(out, v.pictures);
 }
 

@@ -300,11 +300,11 @@ void add_fit(CommandLine& line) {
   c.option("--models", o->models,
            "Models to compare in place of one fit: A,B,C, or all for the usual ones. Says which to "
            "take, by the incident "
-           "angles that each fit had not seen")
+           "angles held out of each fit")
       .delimiter(',');
   c.option("-o,--output", o->output,
            "The result as JSON; of many, the folder for theirs and for summary.csv and .html. "
-           "What is there already, of the same bytes and options, is kept");
+           "Results there that were made from the same file with the same options are reused");
   c.option("--html", o->html,
            "A page of the result, NAME.html, and its data beside it, NAME.page.json");
   add_reading(c, o->reading, false);

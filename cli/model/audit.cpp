@@ -10,6 +10,7 @@
 #include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 #include "reports/own/audit_file.h"
+#include "reports/page/numbers.h"
 
 #include <fmt/format.h>
 
@@ -55,9 +56,12 @@ void print_one(const EntryAudit& e) {
   };
   const auto worst = [&](const char* name, const std::optional<Worst>& w) {
     if (!w) return;
-    line(name, fmt::format("{:.10g}{}{}", w->value,
-                           w->error > 0 ? fmt::format(" ± {:.1g}", w->error) : "",
-                           w->where.empty() ? "" : " at " + w->where));
+    line(name, fmt::format(
+                   "{}{}",
+                   w->error > 0
+                       ? fmt::format("{} ± {:.1g}", page::with_error(w->value, w->error), w->error)
+                       : fmt::format("{:.7g}", w->value),
+                   w->where.empty() ? "" : " at " + w->where));
   };
   if (!e.about->ships.empty()) line("shipped by", std::string(e.about->ships));
   worst("∫ D cos θ", e.normalisation);
@@ -67,7 +71,7 @@ void print_one(const EntryAudit& e) {
   worst("under a lobe", e.energy_under_lobe);
   worst("lowest", e.lowest);
   worst("highest", e.highest);
-  worst("at 90°", e.grazing);
+  worst("value at 90°", e.grazing);
   if (e.not_finite > 0) line("without a value", fmt::format("{} legal inputs", e.not_finite));
   if (e.distance)
     line("distance", fmt::format("{:.4g} at most, RMS {:.4g}, in {} to {}; most at {}",

@@ -49,13 +49,24 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
   const bool by_time = cost == Cost::time;
   say("{}: {}, {}\n", m.name, by_time ? time : operations, by_time ? operations : time);
   say("  take    {}\n", m.spec);
-  std::string kept, dropped, none;
+  if (m.needs_table())
+    say_below("  beware  ",
+              fmt::format("no shader has the table of the light between facets that this needs; "
+                          "nearest comes {}, off by {} {:.2g} with all else exact, without the "
+                          "reference's own error",
+                          compensation_in_words(m.shipped), unit_of(t), m.shipped_quantile));
+  std::string kept, simpler, dropped, none;
   for (const auto& e : m.effects) {
-    auto& list = e.keep ? kept : e.why == Why::structural ? none : dropped;
+    auto& list = e.keep                          ? kept
+                 : e.why == Why::structural      ? none
+                 : is_absence(m.forms[e.effect]) ? dropped
+                                                 : simpler;
+    const bool named = &list == &kept || &list == &simpler;
     list += fmt::format("{}{}{}", list.empty() ? "" : ", ", name_of(e.effect),
-                        e.keep ? fmt::format(" ({})", e.form) : "");
+                        named ? fmt::format(" ({})", m.forms.name(e.effect)) : "");
   }
   say_below("  keep    ", kept.empty() ? "nothing" : kept);
+  if (!simpler.empty()) say_below("  simpler ", simpler);
   if (!dropped.empty()) say_below("  drop    ", dropped);
   if (!none.empty()) say_below("  absent  ", none);
   if (m.bounded) {
@@ -72,7 +83,7 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
         "  check   ",
         fmt::format("{} % of {} fresh points differ from {} by {} {:.2g}; no walk is known of "
                     "this lobe, so that is no bound",
-                    in_percent(t.quantile), m.checked.samples, reference_in_words(m.reference),
+                    in_percent(t.quantile), m.checked.samples, compensation_in_words(m.reference),
                     unit_of(t), m.checked.quantile));
   }
   if (!m.holds)
@@ -80,12 +91,6 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
               !has_budget    ? "no set of forms keeps the tolerance; this is the closest plan"
               : m.could_hold ? "the budget leaves no set that keeps the tolerance here"
                              : "no set of forms keeps the tolerance, with the budget or without");
-  if (m.needs_table())
-    say_below("  beware  ",
-              fmt::format(
-                  "no shader has this table; with all else exact, what shaders have differs by {} "
-                  "{:.2g} at best, without the reference's own error",
-                  unit_of(t), m.shipped_quantile));
   if (m.only_unseen && m.holds)
     say_below("  beware  ",
               "no other set keeps the tolerance both where sets are compared and on fresh points; "

@@ -29,7 +29,7 @@ void print(const VerifiedMaterial& m, const Tolerance& t) {
                 : fmt::format(
                       "from {} by more than {:g}, the worst by {}; no walk is known of this "
                       "lobe, so that is no bound",
-                      reference_in_words(m.reference), t.limit, worst);
+                      compensation_in_words(m.reference), t.limit, worst);
   say_below(fmt::format("{}: {}  ", m.name, m.holds ? "holds" : "is broken"),
             fmt::format("{} of {} points differ {}", m.found.exceeding, m.found.samples, what));
 }

@@ -2,6 +2,7 @@
 #include "reports/own/compare.h"
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 
 #include "answer/model_argument.h"
@@ -9,6 +10,7 @@
 #include "cli/line/reading.h"
 #include "cli/line/terminal.h"
 #include "fitting/judge/assess.h"
+#include "fitting/judge/warnings.h"
 #include "fitting/result/document.h"
 #include "fitting/solve/problem.h"
 #include "foreign/function.h"
@@ -30,12 +32,23 @@ struct CompareCall : Common {
 };
 
 void print(std::size_t values, const FitResiduals& r) {
-  say("{:<22}{:>12}{:>16}{:>16}\n", "", "values", "RMS [1/sr]", "log RMS");
-  say("{:<22}{:>12}{:>16.6g}{:>16.6g}\n", "all", values, r.rms, r.log_rms);
+  const auto named = [](const ResidualBand& b) {
+    return fmt::format("{} {}° to {}°", b.angle, b.from_deg, b.to_deg);
+  };
+  const ResidualBand* worst = nullptr;
   for (const auto& b : r.bands)
-    if (b.values)
-      say("{:<22}{:>12}{:>16.6g}{:>16.6g}\n",
-          fmt::format("{} {}° to {}°", b.angle, b.from_deg, b.to_deg), b.values, b.rms, b.log_rms);
+    if (b.values && std::isfinite(b.log_rms) && (!worst || b.log_rms > worst->log_rms)) worst = &b;
+  if (worst)
+    say("typically off by a factor of {}, most at {}: {}\n", typical_factor(r.log_rms),
+        named(*worst), typical_factor(worst->log_rms));
+  const auto row = [](const std::string& name, std::size_t n, double rms, double log_rms) {
+    say("{:<22}{:>12}{:>16}{:>16.4g}\n", name, n,
+        std::isfinite(log_rms) ? typical_factor(log_rms) : "–", rms);
+  };
+  say("{:<22}{:>12}{:>16}{:>16}\n", "", "values", "typical factor", "RMS [1/sr]");
+  row("all", values, r.rms, r.log_rms);
+  for (const auto& b : r.bands)
+    if (b.values) row(named(b), b.values, b.rms, b.log_rms);
 }
 
 Exit run_terms(const CompareCall& o) {

@@ -17,6 +17,7 @@
 #include "fitting/choice/cross_validation.h"
 #include "fitting/fit.h"
 #include "fitting/judge/free_scale.h"
+#include "fitting/judge/warnings.h"
 #include "fitting/solve/problem.h"
 #include "number/distributions.h"
 #include "table/format/measured_by.h"
@@ -302,15 +303,15 @@ Advice advise(const ModelChoice& choice) {
         take->model);
   else if (take == best)
     a.reason = fmt::format(
-        "On incident angles that it had not seen, {} is nearest to the table: its log RMS there is "
-        "{:.3g}.",
-        take->model, take->cv_log_rms);
+        "On incident angles held out of its fit, {} is nearest to the table: there it is typically "
+        "off by a factor of {}.",
+        take->model, typical_factor(take->cv_log_rms));
   else
     a.reason = fmt::format(
-        "{} has the fewest parameters of the {} that the table cannot tell apart: its log RMS on "
-        "unseen incident angles is "
-        "{:.3g}, and the least {:.3g}.",
-        take->model, a.as_good.size() + 1, take->cv_log_rms, best->cv_log_rms);
+        "{} has the fewest parameters of the {} that the table cannot tell apart: on incident "
+        "angles held out of its fit it is typically off by a factor of {}, the nearest by {}.",
+        take->model, a.as_good.size() + 1, typical_factor(take->cv_log_rms),
+        typical_factor(best->cv_log_rms));
   if (a.none_fits) a.reason = "Every model misses the table by more than its noise. " + a.reason;
   const auto disagrees = [&](const char* judge_name, auto of, double by, auto text) {
     const ModelRow* other = least(rows, of);

@@ -314,13 +314,14 @@ std::vector<NextDirection> plan_next(const Table& whole,
   const double misfit = r.document.misfit.told ? r.document.misfit.size : 0;
   if (2 * misfit * misfit >
       std::pow(r.document.residuals.log_rms, 2)) {  // more than there is noise
-    const std::string said = misfit_in_words(r.document.misfit).front();
     FitOptions again = given;
     again.certificate = Certify::automatic;
     const auto next = fit(t, again, phase).document.next;
-    throw bad_input(t.path, "fit", said.substr(0, said.find(';')),
-                    "a model that describes it: no further direction mends that" +
-                        (next.empty() ? "" : " (try " + next.front() + ")"));
+    throw bad_input(t.path, "fit",
+                    fmt::format("a model that misses the table by a factor of {} beyond noise",
+                                typical_factor(misfit)),
+                    "one that fits: no further direction mends that" +
+                        (next.empty() ? "" : "; " + next.front()));
   }
   if (unknowns.empty())
     throw bad_input(

@@ -116,8 +116,10 @@ Figure picture(const EntryAudit& e) {
 
 std::string worst_text(const std::optional<Worst>& w) {
   if (!w) return "";
-  return fmt::format("{}{}{}", significant(w->value, 6),
-                     w->error > 0 ? " ± " + significant(w->error, 1) : "",
+  return fmt::format("{}{}",
+                     w->error > 0
+                         ? with_error(w->value, w->error) + " ± " + significant(w->error, 1)
+                         : significant(w->value, 6),
                      w->where.empty() ? "" : " at " + symbols(w->where));
 }
 Pairs details(const EntryAudit& e) {
@@ -139,7 +141,7 @@ Pairs details(const EntryAudit& e) {
        {"under a lobe of f0 0.04", worst_text(e.energy_under_lobe)},
        {"lowest value", worst_text(e.lowest)},
        {"highest value", worst_text(e.highest)},
-       {"at 90°", worst_text(e.grazing)},
+       {"value at 90°", worst_text(e.grazing)},
        {"light",
         e.light_unit == 1
             ? ""

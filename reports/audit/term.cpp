@@ -56,7 +56,7 @@ class TermAudit {
         all.add((v[i] - w[i]) / peak,
                 [&] { return joined(text(catalogue()[reference].parameters, q), text(at[i])); });
     }
-    static constexpr std::string_view measures[] = {"D over the reference's peak", "G2", "F", "f"};
+    static constexpr std::string_view measures[] = {"D ÷ the reference's peak", "G2", "F", "f"};
     return all.distance(catalogue()[reference].about->id,
                         measures[static_cast<std::size_t>(role_)]);
   }

@@ -100,9 +100,8 @@ Section what_it_costs(const CostRows& all) {
               "The time that one sample takes more, with the spread between processes, and how "
               "many times as long it takes. A difference that is not there in every process is a "
               "tie. A frame is one sample each pixel in cache, on one processor. In {}, memory "
-              "hides what is computed while it waits. Terms are timed as a model uses them: D "
-              "leaves a fraction, masking divides it, Fresnel and diffuse terms are added up. "
-              "Operations are those of the term itself, its division included.",
+              "hides what is computed while it waits. Terms are timed as a model uses them; "
+              "operations are those of the term itself.",
               long_columns(all.options)),
           {in_both_numbers([&](const char* n) { return switch_table(all, n); })},
           "switches"};

@@ -183,8 +183,8 @@ void gamma_of_both(Findings& to, const CrossFitRows& r) {
 
 /// Words for where a material looks rougher than it is, or smoother.
 std::string looks(const Shift& s) {
-  return fmt::format("{} by up to {} ({})", s.by > 0 ? "rougher" : "smoother",
-                     rounded_up(std::abs(s.by)), s.in->material);
+  return fmt::format("{} by up to {} ({} at roughness {:g})", s.by > 0 ? "rougher" : "smoother",
+                     rounded_up(std::abs(s.by)), s.in->material, s.in->roughness);
 }
 
 void lost_energy(Findings& to, const CrossFitRows& r) {
@@ -193,11 +193,13 @@ void lost_energy(Findings& to, const CrossFitRows& r) {
     const auto roughness = shifts(all, "roughness"), f0 = shifts(all, "f0");
     if (!roughness || !f0) continue;
     const auto &up = roughness.most(), &down = roughness.least();
+    const bool both_ways = up.by > 0 && down.by < 0;
     const auto& most = std::abs(up.by) > std::abs(down.by) ? up : down;
     to.say(fmt::format(
-        "Fitted with single scattering, {} whose light meets several facets look {}, {}. Their F0 "
-        "shifts {} there.",
-        group.name, looks(most), by_log, span(f0, signed_percent)));
+        "Fitted with single scattering, {} whose light meets several facets look {}, {}.",
+        group.name, looks(both_ways ? up : most), by_log));
+    if (both_ways) to.say(fmt::format("At other roughnesses {} look {}.", group.name, looks(down)));
+    to.say(fmt::format("F0 of {} shifts {} there.", group.name, span(f0, signed_percent)));
     if (f0.at_bound > 0)
       to.say(
           fmt::format("The shift of F0 is known for {} values; the others ended at a bound or "

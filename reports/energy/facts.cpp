@@ -27,10 +27,11 @@ Facts::Scattering& entry_of(std::vector<Facts::Scattering>& to,
   auto of = std::ranges::find_if(to, [&](const Facts::Scattering& x) {
     return x.id == id && x.f0 == f0 && x.of_image_light == of_image_light;
   });
-  if (of == to.end()) of = to.insert(of, {std::string(id), f0, of_image_light, {}, {}});
+  if (of == to.end()) of = to.insert(of, {std::string(id), f0, of_image_light, {}, {}, {}});
   if (of->roughness.empty() || of->roughness.back() != roughness) {
     of->roughness.push_back(roughness);
     of->delta_e.push_back(0);
+    of->error.push_back(0);
   }
   return *of;
 }
@@ -75,8 +76,9 @@ Facts facts(const EnergyRows& r) {
   for (const auto& m : r.materials)
     if (m.f0) add_scattering(f.scattering, m);
   for (const auto& s : r.single_lights) {  // the lights of a roughness stand side by side
-    double& most = entry_of(f.scattering, s.id, s.f0, false, s.roughness).delta_e.back();
-    most = std::max(most, s.delta_e + s.error);  // of the walks
+    auto& way = entry_of(f.scattering, s.id, s.f0, false, s.roughness);
+    if (const double most = s.delta_e + s.error; most > way.delta_e.back())
+      way.delta_e.back() = most, way.error.back() = s.error;
   }
   for (const auto& c : r.compensations)
     if (c.id != "single")

@@ -56,9 +56,10 @@ void of_white(Findings& to, const EnergyRows& r) {
   for (const auto& c : f->crossings)
     if (c.mu == 0 && c.share == 0.05 && !c.ranges.empty())
       to.headline = fmt::format(
-          "Rough metal goes dark: one bounce under GGX loses {} or more of white light from "
-          "roughness {:.2f} on, and {} where it is roughest.",
-          percent(c.share), c.ranges[0].from, percent(1 - rough.albedo, 2));
+          "Rough metal goes dark: one bounce under GGX loses {} or more of white light {}, and {} "
+          "where it is roughest.",
+          percent(c.share), range_text(c.ranges[0].from, c.ranges[0].to, "roughness "),
+          percent(1 - rough.albedo, 2));
   const auto normal =
       std::ranges::find_if(f->rows, [](const auto& at) { return at.roughness == 1 && at.mu == 1; });
   const auto* other = find_form(r.forms, "masking.smith_ggx.separable");

@@ -60,7 +60,12 @@ let catalogue, tables = [], page;  // page: what it came with
 let items = [], view, active = 0, compared = null;
 const documents = new Map();  // those of fits and comparisons, by their ids: too long for an address
 const usual = "lambert+ggx/smith_ggx.correlated/schlick";
-const first_view = () => ({ theta: 45, phi: 0, phid: 90, ev: 0, log: true, slog: false, channel: 1, light: [0.5, 0.6, 0.62], lamp: "", turn: [0.6, 0.45] });
+/// 45°, or the angle nearest to it at which a table has values of its own.
+const first_angle = () => {
+  const measured = items.flatMap((item) => (item.cuts ?? []).map((c) => c.theta_i));
+  return measured.length ? measured.reduce((a, b) => (Math.abs(b - 45) < Math.abs(a - 45) ? b : a)) : 45;
+};
+const first_view = () => ({ theta: first_angle(), phi: 0, phid: 90, ev: 0, log: true, slog: false, channel: 1, light: [0.5, 0.6, 0.62], lamp: "", turn: [0.6, 0.45] });
 const settings_of = (values) => Object.entries(values).map(([name, v]) => `${name}=${v.join(",")}`).join(" ");
 const is_model = (item) => item && item.kind === "model";
 /// Name that a person gave; without one a model is called by its terms.
@@ -598,7 +603,7 @@ function show_facts() {
     const of = (dashed) => albedos.curves.find((c) => c.item === model && Boolean(c.dashed) === dashed), all = of(false), white = of(true);
     if (all && white) {
       const at = nearest(albedo_angles, view.theta);
-      lines.push(`${label(model)} at θi ${degrees(albedo_angles[at])}: albedo ${all.channels.map((e) => shown(Number(e[at].toPrecision(3)))).join(", ")}; ${model.about.parts.some((p) => p.length === 3) ? `its first lobe alone would reflect ${shown(Number(white.channels[0][at].toPrecision(3)))} with F = 1, the rest is lost between facets` : "it has no lobe"}.`);
+      lines.push(`${label(model)} at θi ${degrees(albedo_angles[at])}: albedo ${all.channels.map((e) => shown(Number(e[at].toPrecision(3)))).join(", ")}; ${model.about.parts.some((p) => p.length === 3) ? `its first lobe with F = 1 reflects ${shown(Number(white.channels[0][at].toPrecision(3)))}${white.channels[0][at] <= 1 ? ", the rest is lost between facets" : ": more than arrives"}` : "it has no lobe"}.`);
     }
     for (const table of items) if (comparable(table)) {
       checked(g.difference(model.handle, table.samples, room.f, room.rgba)), put(`ratio-${items.indexOf(table)}`, mapSize);

@@ -12,7 +12,11 @@ void append(std::vector<T>& to, const std::vector<T>& from) {
 
 std::optional<double> nearer_from(const Facts::Scattering& way, const Facts::Scattering& other) {
   std::optional<double> from;
-  for (std::size_t i = way.roughness.size(); i-- > 0 && way.delta_e[i] < other.delta_e[i];)
+  // delta_e is an upper end: that of the other has to be above it by its lower one.
+  const auto least = [&](std::size_t i) {
+    return other.delta_e[i] - (other.error.empty() ? 0 : 2 * other.error[i]);
+  };
+  for (std::size_t i = way.roughness.size(); i-- > 0 && way.delta_e[i] < least(i);)
     from = way.roughness[i];
   return from;
 }

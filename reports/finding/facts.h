@@ -54,6 +54,7 @@ struct Facts {
     double f0;       ///< under Schlick's Fresnel
     bool of_image_light;
     std::vector<double> roughness, delta_e;
+    std::vector<double> error{};  ///< in delta_e, of random walks; empty: none
   };
   std::vector<Scattering> scattering{};
   /// Time of a compensation over that of single scattering, one light and view at a time in float.

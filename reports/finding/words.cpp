@@ -54,8 +54,10 @@ std::string at_angle(double mu) {
                    : fmt::format("at cosine {:g}", mu);
 }
 std::string range_text(double from, double to, const std::string& word) {
-  if (to >= 1) return fmt::format("from {}{:.2f} on", word, from);
-  return fmt::format("from {}{:.2f} to {:.2f}", word, from, to);
+  // Inwards: what is said of the range holds at its printed ends.
+  const double first = std::ceil(100 * from - 1e-9) / 100, last = std::floor(100 * to + 1e-9) / 100;
+  if (to >= 1) return fmt::format("from {}{:.2f} on", word, first);
+  return fmt::format("from {}{:.2f} to {:.2f}", word, first, last);
 }
 
 std::string list_text(const std::vector<std::string>& all, std::string_view last) {

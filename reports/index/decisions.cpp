@@ -127,8 +127,8 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
        fmt::format(
-           "typically {} off measured materials (the median of their published fits; {} have a "
-           "longer tail)",
+           "typically {} off measured materials (the median of their published fits; by the "
+           "exponents published with them {} have a longer tail)",
            factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
        std::string(no_more),
        fmt::format(
@@ -409,11 +409,12 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
              cost_text(*taken, cheap),
              ""};
   if (taken->form != cheap_id && own)
-    d.error += below_lobe ? fmt::format("; reflects up to {} of the light (Lambert: {})",
-                                        made(*form_of(taken->form)), made(*lambert))
-                          : fmt::format(" ({}Lambert: {})",
-                                        is_exact(*taken) ? "it is the reference; " : "",
-                                        delta_at_most(*own));
+    d.error +=
+        below_lobe
+            ? fmt::format("; at cosines from 0.02 on reflects up to {} of the light (Lambert: {})",
+                          made(*form_of(taken->form)), made(*lambert))
+            : fmt::format(" ({}Lambert: {})", is_exact(*taken) ? "it is the reference; " : "",
+                          delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
     d.unless = fmt::format("you accept up to {} of reflected light: then {}, {}",
@@ -448,7 +449,7 @@ void precision(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Precision: D V F NoL of GGX in half",
        fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
-       fmt::format("≤ {} on metal, light and view up to {:.0f}° (F0 of {:g} or more; "
+       fmt::format("≤ {} where F0 is {2:g} or more, light and view up to {1:.0f}° ("
                    "a search found no larger error, which is no proof)",
                    percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
        fmt::format("surfaces below roughness {0} look like {0}",

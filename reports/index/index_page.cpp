@@ -374,8 +374,8 @@ std::string index_page_html(const ReportIndex& i) {
        "about"});
   const std::time_t at = i.at_ms / 1000;
   out.setting = fmt::format(
-      "gonio {}, {} setting, made {:%Y-%m-%d %H:%M} UTC. All of this page is in index.json beside "
-      "it.",
+      "gonio {}, {} setting, made {:%Y-%m-%d %H:%M} UTC. All rows of this page are in index.json "
+      "beside it.",
       i.version, setting_of(i), fmt::gmtime(at));
   return page_html(out, i.front);
 }

@@ -27,6 +27,7 @@ std::string prose(std::string_view text) {
       ++i;
     } else {
       out += escaped[i];
+      if (code && escaped[i] == '+') out += "<wbr>";  // where a spec that does not fit breaks
     }
   return out + (code ? "</code>" : "") + (bold ? "</b>" : "");
 }

@@ -53,9 +53,12 @@ struct Row {
   std::string reason;
   Range range;  ///< where the formula is defined; NaN where that is not known
 };
-/// What a synthesized table was made with; alpha and roughness from each other, alpha = roughness².
-double truth_of(const gonio::Table& t, const std::string& name, std::size_t c) {
-  if (!t.truth) return no_value;
+/// What a table was made with by the model that was fitted; alpha and roughness from each other, alpha = roughness².
+double truth_of(const FitDocument& d,
+                const gonio::Table& t,
+                const std::string& name,
+                std::size_t c) {
+  if (!t.truth || t.truth->model != d.model) return no_value;
   const auto of = [&](const std::string& parameter) {
     const auto at =
         std::ranges::find(t.truth->parameters, parameter, [](const auto& p) { return p.first; });
@@ -80,7 +83,7 @@ std::vector<Row> rows_of(const FitDocument& d, const gonio::Table& t) {
       const bool several = p.value.size() > 1;
       out.push_back({p.name, several ? p.name + "." + d.channels[c] : p.name, c == 0, p.value[c],
                      p.std_error[c], p.ci95_low[c], p.ci95_high[c],
-                     c < p.limit.size() ? p.limit[c] : no_value, truth_of(t, p.name, c),
+                     c < p.limit.size() ? p.limit[c] : no_value, truth_of(d, t, p.name, c),
                      p.status[c], c < p.reason.size() ? p.reason[c] : "", range});
     }
   }

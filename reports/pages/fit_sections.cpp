@@ -6,6 +6,7 @@
 
 #include "base/quantile.h"
 #include "base/text.h"
+#include "fitting/judge/warnings.h"
 #include "reports/page/numbers.h"
 #include "reports/pages/table_sections.h"
 
@@ -56,12 +57,6 @@ std::string rho_text(double rho) {
 // --- Where the model is off ----------------------------------------------------------------------
 namespace {
 
-/// "0.7 %" or "a factor of 1.8": how far a mean ratio is from 1, by its logarithm.
-std::string size_text(double log_ratio) {
-  const double off = std::expm1(std::abs(log_ratio));
-  return off < 0.3 ? percent(off) : "a factor of " + significant(1 + off);
-}
-
 std::string map_words(const ResidualMap& m, double limit) {
   std::vector<double> sizes;
   std::size_t worst = m.mean.size();
@@ -77,11 +72,11 @@ std::string map_words(const ResidualMap& m, double limit) {
     return degrees_text((edges[i] + edges[i + 1]) / 2);
   };
   return fmt::format(
-      "In half of the {} cells the model is off by at most {}. Worst single cell, noise included: "
-      "{} too {}, at θ_h {}, θ_d {}. The strongest colours stand for {} or more.",
-      count, size_text(median(sizes)), size_text(m.mean[worst]),
-      m.mean[worst] < 0 ? "dark" : "bright", middle(m.theta_h_deg, worst / nd),
-      middle(m.theta_d_deg, worst % nd), size_text(std::log(limit)));
+      "In half of the {} cells the model is off by at most ×/÷ {}. Worst single cell, noise "
+      "included: {}, at θ_h {}, θ_d {}. The strongest colours stand for ×/÷ {} or more.",
+      count, typical_factor(median(sizes)), deviation_in_words(std::exp(m.mean[worst])),
+      middle(m.theta_h_deg, worst / nd), middle(m.theta_d_deg, worst % nd),
+      typical_factor(std::log(limit)));
 }
 
 }  // namespace
@@ -215,7 +210,7 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
   const bool has_error = data != h.albedo.end() && data->error > 0;
   std::string words = fmt::format(
-      "Of the angles shown the fitted model reflects most at θ_i {}: {} of the light{}{}.{}",
+      "The fitted model reflects most at θ_i {}, of the angles shown: {} of the light{}{}.{}",
       degrees_text(p.theta_i_deg[at]), share(top),
       known(p.data_albedo[at][channel])
           ? fmt::format("; the table reflects {}{}", share(p.data_albedo[at][channel]),

@@ -103,10 +103,13 @@ Figure error_and_time(const ModelChoice& choice,
   Figure f = make_figure("error_and_time");
   f.title = "Error left against time";
   f.x = {"time of one sample [ns]", true};
-  f.y = {choice.blocks > 0 ? "log RMS on unseen incident angles" : "log RMS over the table", true};
+  f.y = {choice.blocks > 0 ? "log RMS on held-out incident angles" : "log RMS over the table",
+         true};
   if (auto line = front_line("front", all)) f.curves.push_back(std::move(*line));
   for (const auto& [name, dots] :
-       {std::pair("recommended", &recommended), {"as good", &as_good}, {"other models", &others}})
+       {std::pair(advice.none_fits ? "nearest" : "recommended", &recommended),
+        {"as good", &as_good},
+        {"other models", &others}})
     if (!dots->empty()) f.curves.push_back(front_points(name, *dots));
   return f;
 }
@@ -324,9 +327,9 @@ std::vector<Part> ModelsSections::verdict() const {
                   advice_.none_fits ? "No model fits the table. The nearest is" : "Take", m.name,
                   m.row.model));
   say(in_words(advice_.reason));
-  say(fmt::format("{} model and table typically differ by {}.",
-                  predicted_ ? "On incident angles left out of the fit," : "On the angles fitted,",
-                  factor_text(error_of(choice_, m.row))));
+  if (!predicted_)
+    say(fmt::format("On the angles fitted, model and table typically differ by {}.",
+                    factor_text(m.row.log_rms)));
   std::vector<std::string> alike, not_compared;
   for (const auto& other : compared_)
     if (as_good(other)) alike.push_back(other.name);
@@ -380,11 +383,12 @@ Section ModelsSections::models() const {
                            ? "none"
                            : fmt::to_string(fmt::join(r.parameters_at_bound, ", ")));
     }
-  return {"The models",
-          fmt::format("The nearest first, {}.",
-                      predicted_ ? "on angles left out of the fit" : "over the angles fitted"),
-          {std::move(t)},
-          "models"};
+  return {
+      "The models",
+      fmt::format("The nearest first, {}.",
+                  predicted_ ? "on incident angles held out of the fit" : "over the angles fitted"),
+      {std::move(t)},
+      "models"};
 }
 
 Section ModelsSections::curves(Pictures& pictures) const {
@@ -460,7 +464,7 @@ std::string ModelsSections::html() {
           "Each point is a model, with its number in the list below. Further down is nearer to the "
           "table, further left is faster. The dashed line joins the models that no other beats in "
           "both. {}",
-          predicted_ ? "Nearness is judged on incident angles left out of the fit."
+          predicted_ ? "Nearness is judged on incident angles held out of the fit."
                      : "The table has too few incident angles to leave some out: nearness is that "
                        "over the angles fitted."),
       {Shown{"error_and_time", {}, 380}}};
@@ -472,7 +476,7 @@ std::string ModelsSections::html() {
               {"SHA-256", "`" + table_.sha256 + "`"},
               {"format", table_.format},
               {"metric of the fits", words(table_.metric)},
-              {"left out in turn",
+              {"held out in turn",
                predicted_ ? many(choice_.blocks, "block") + " of neighbouring incident angles"
                           : "nothing: the table has too few incident angles"},
               {"values", std::isfinite(choice_.effective_values)
@@ -499,7 +503,7 @@ std::string ModelsSections::html() {
                         floor_in_words(choice_))},
            {"free", "values that were fitted, those of each channel counted"},
            {"unseen",
-            "log RMS on incident angles that were left out of the fit. It grows where a model has "
+            "log RMS on incident angles that were held out of the fit. It grows where a model has "
             "more parameters than the table can determine"},
            {"as good",
             "at most 5 % more of it than the best model, or as much as few values make by chance, "

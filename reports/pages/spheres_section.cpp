@@ -128,7 +128,7 @@ page::Table numbers(const Lights& shown, const Spheres& s, std::string_view name
     return !l.models.empty() && std::isfinite(l.models[0].spacing_median);
   });
   t.head = columns(spacing ? "light|>covered|>ΔE2000: median|>95th percentile|>from spacing "
-                             "only: median|>95th percentile"
+                             "only: median|>from spacing only: 95th percentile"
                            : "light|>covered|>ΔE2000: median|>95th percentile");
   for (const auto& l : s.lights) {
     const auto of = [&](double ModelSphere::*what) {
@@ -144,24 +144,26 @@ page::Table numbers(const Lights& shown, const Spheres& s, std::string_view name
   return t;
 }
 
-std::string how(const Spheres& s) {
+std::string how(const Spheres& s, bool has_columns) {
   const bool colours = s.channels == std::vector<std::string>{"r", "g", "b"};
   return fmt::format(
       "Front light: three lights on the viewer's side. Rim light: one of these, and two from "
       "behind "
       "the sphere. Flash: one, 10° above the viewer. The table's 99th percentile of "
-      "luminance under each light is shown as white. Covered: share of the lit pixels for which "
-      "the table has a "
-      "value. A grid is interpolated. A list shows its nearest sample, where both its "
+      "luminance under each light is shown as white. A grid is interpolated. A list shows its "
+      "nearest sample, where both its "
       "directions are within {}°; samples mirrored at the plane of incidence, or with light and "
-      "view exchanged, also count.{} From spacing only: "
-      "what the spacing of the samples would make of an exact model, here the fit sampled at the "
-      "table's directions.",
+      "view exchanged, also count.{}{}",
       Spheres::reach_deg,
       colours
           ? std::string()
           : fmt::format(" Shown is the grey of {}{}.", s.channels.size() > 1 ? "the mean of " : "",
-                        fmt::join(s.channels, ", ")));
+                        fmt::join(s.channels, ", ")),
+      has_columns
+          ? " Covered: share of the lit pixels for which the table has a value. From spacing only: "
+            "what the spacing of the samples would make of an exact model, here the fit sampled at "
+            "the table's directions."
+          : "");
 }
 
 }  // namespace
@@ -197,7 +199,7 @@ page::Section spheres_section(const Spheres& s, std::string_view name, std::size
     (m < at_once ? out.parts : more.parts).emplace_back(row_of(shown, s, m, name));
   if (!more.parts.empty()) out.parts.emplace_back(std::move(more));
   out.parts.emplace_back(numbers(shown, s, name));
-  out.parts.emplace_back(Prose{how(s), "small muted"});
+  out.parts.emplace_back(Prose{how(s, !name.empty()), "small muted"});
   return out;
 }
 

@@ -88,8 +88,8 @@ void savings(Findings& to, const ScenesRows& r) {
     if (these.empty()) continue;
     const auto* const slowest = *std::ranges::min_element(these, {}, &SceneRow::speedup_float);
     to.say(
-        fmt::format("Plans take longer than all that the material has, for {}: {}{} times as "
-                    "long.",
+        fmt::format("The plan is slower than all effects of the material for {}: it takes {}{} "
+                    "times as long.",
                     scenes_text(these), these.size() == 1 ? "" : "up to ",
                     times_text(1 / slowest->speedup_float)));
     to.say(by_table ? "Only the tabulated light between facets keeps the tolerance there."
@@ -115,9 +115,8 @@ void precision(Findings& to, const ScenesRows& r) {
     if (e.effect == "precision") most = std::max(most, e.error_if_dropped);
   std::ranges::sort(ratios);
   to.say(
-      fmt::format("Float instead of double, which shaders ship anyway, makes everything on {} "
-                  "times as fast and "
-                  "changes ΔE2000 by less than {}; it is not counted there.",
+      fmt::format("Float, which shaders ship anyway, is not counted there: it is {} times as fast "
+                  "as double, and changes ΔE2000 by less than {}.",
                   times_text(ratios[ratios.size() / 2]),
                   most < 0.01 ? std::string("0.01") : fmt::format("{:.1g}", most)));
 }
@@ -241,16 +240,16 @@ void switches(Findings& to, const ScenesRows& r) {
       if (m.error[i * m.roughness.size() + j] > r.tolerance.limit) seen.push_back(i);
     std::string where = "under no single light";
     if (!seen.empty()) {
-      const bool from_start = seen.front() == 0, to_end = seen.back() + 1 == m.light_deg.size();
       const double first = m.light_deg[seen.front()], last = m.light_deg[seen.back()];
-      where = from_start && to_end ? "under a single light from any side"
-              : from_start         ? fmt::format("with a light up to {:g}° from the viewer", last)
-              : to_end ? fmt::format("with a light {:g}° or more from the viewer", first)
+      where = seen.front() == 0 && first != last
+                  ? fmt::format("with a light up to {:g}° from the viewer", last)
               : first == last
                   ? fmt::format("with a light about {:g}° from the viewer", first)
                   : fmt::format("with a light {:g}° to {:g}° from the viewer", first, last);
     }
-    to.say(fmt::format("{} of roughness {:.2g} needs {} {}.", capital(m.material), *near, m.name,
+    // What the map drops is Smith's masking, to Schlick's form of it.
+    const auto needed = m.effect == "masking" ? std::string("Smith's masking") : m.name;
+    to.say(fmt::format("{} of roughness {:.2g} needs {} {}.", capital(m.material), *near, needed,
                        where));
   }
 }

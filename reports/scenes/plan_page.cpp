@@ -35,11 +35,16 @@ std::string words_of(Effect e) {
 std::string form_words(std::string_view form) {
   return form == "on" || form == "off" ? "" : fmt::format(" ({})", spaced(std::string(form)));
 }
+/// What a plan has in the place of an effect that it does not keep: " → schlick"; nothing where it leaves it out.
+std::string instead(const scene::MaterialPlan& m, const scene::PlannedEffect& e) {
+  const auto form = m.forms[e.effect];
+  return is_absence(form) ? "" : " → " + spaced(std::string(name_of(form)));
+}
 template <class Is>
 std::string names(const scene::MaterialPlan& m, Is is) {
   std::vector<std::string> out;
   for (const auto& e : m.effects)
-    if (is(e)) out.push_back(words_of(e.effect) + (e.keep ? form_words(e.form) : ""));
+    if (is(e)) out.push_back(words_of(e.effect) + (e.keep ? form_words(e.form) : instead(m, e)));
   return out.empty() ? "nothing" : fmt::format("{}", fmt::join(out, ", "));
 }
 std::string rounded(double n) {
@@ -97,7 +102,7 @@ void say_errors(std::vector<std::string>& out, const scene::Plan& p, const std::
         "The plan{} differs from {} by {}{} at {} of the points; no walk is known of this lobe, so "
         "that is no bound.",
         p.materials.size() == 1 ? std::string() : " of " + m->name,
-        scene::reference_in_words(m->reference), unit, significant(error_of(*m), 2), most));
+        scene::compensation_in_words(m->reference), unit, significant(error_of(*m), 2), most));
 }
 
 /// True where nothing of what the material has is left out but double precision: its time is that it is compared with.
@@ -155,14 +160,16 @@ std::vector<std::string> verdict(const scene::Plan& p, const std::string& unit) 
   for (const auto& m : p.materials)
     if (m.needs_table()) {
       out.push_back(fmt::format(
-          "The plan of {} has light between facets as a table, which no shader has. With it {} {}.",
-          m.name, m.name,
+          "No shader can keep the tolerance for {}: it needs the light between facets as a table, "
+          "and {} with it.",
+          m.name,
           m.speedup < 1 ? fmt::format("takes {} the time", times(1 / m.speedup))
                         : "is " + speed(m.speedup)));
       out.push_back(fmt::format(
-          "With all else exact, what shaders have for {} differs by {}{} at best, without the "
+          "What ships and comes nearest for {} is {}: off by {}{} with all else exact, without the "
           "reference's own error.",
-          m.name, unit, significant(m.shipped_quantile, 2)));
+          m.name, scene::compensation_in_words(m.shipped), unit,
+          significant(m.shipped_quantile, 2)));
     }
   say_errors(out, p, unit);
   say_broken(out, p, unit);
@@ -197,11 +204,12 @@ Section spheres(const scene::Scene& s, const scene::Plan& p) {
                        "may differ by more than the points of the check."
                      : ""),
       {Markup{sphere_keys(scale) + R"(<div class="scene">)" +
-              sphere_figure(fmt::format("ΔE of a pixel up to {}", bound_text(made.worst)), pixels,
-                            {{made.everything, "everything on"},
-                             {made.planned, "as planned"},
-                             {difference_png(made.difference, pixels, scale), "difference"}},
-                            true) +
+              sphere_figure(
+                  fmt::format("ΔE of a pixel up to {}", bound_text(made.worst)), pixels,
+                  {{made.everything, "all effects", "all effects"},
+                   {made.planned, "as planned", "as planned"},
+                   {difference_png(made.difference, pixels, scale), "difference", "difference"}},
+                  true) +
               "</div>"}}};
 }
 
@@ -233,7 +241,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
     t.add(capital(words_of(e.effect)),
           e.keep   ? Cell{"keep" + form_words(e.form), {}, {}, "verdict-yes"}
           : absent ? Cell{"absent", {}, {}, "muted"}
-                   : Cell{"drop"},
+                   : Cell{"drop" + instead(m, e)},
           absent   ? "–"
           : proved ? at_most(e.error_if_dropped)
                    : significant(e.error_if_dropped, 2),
@@ -248,9 +256,8 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
   const auto& c = m.checked;
   Section s{m.name,
             "Each effect dropped by itself, all others exact, without the reference's own error. "
-            "Errors do not add, so the plan's set is checked as a whole. Savings are measured on "
-            "all effects in double, "
-            "with Kulla and Conty's lobe between facets.",
+            "Errors do not add, so the plan's set is checked as a whole. Savings are those from "
+            "all effects in double, as double precision is one of them.",
             {t}};
   if (!m.holds)
     s.parts.emplace_back(Prose{!p.budget ? "No set of forms keeps the tolerance here. This one is "
@@ -275,7 +282,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                 percent_given(p.tolerance.confidence), failed)
           : fmt::format("Checked on {} fresh points beside {}. No walk is known of this lobe, so "
                         "nothing is claimed beyond these points.{}",
-                        count_text(c.samples), scene::reference_in_words(m.reference), failed),
+                        count_text(c.samples), scene::compensation_in_words(m.reference), failed),
       "small"});
   if (m.only_unseen && m.holds)
     s.parts.emplace_back(
@@ -324,10 +331,12 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
           has_plan ? std::string("A faster set keeps the tolerance, too.")
                    : fmt::format("The plan, at {} ns, is none of them.", significant(m.ns));
       s.parts.emplace_back(Prose{
-          by_time ? which + " Times within their spread count as the same, and among such sets the "
-                            "plan takes the fewest operations, then keeps the fewest effects."
-                  : "The plan is none of them: among sets of as many operations it keeps the "
-                    "fewest effects.",
+          by_time
+              ? which +
+                    " Times within twice their spreads count as the same, and among such sets the "
+                    "plan takes the fewest operations, then keeps the fewest effects."
+              : "The plan is none of them: among sets of as many operations it keeps the "
+                "fewest effects.",
           "small"});
     }
   }
@@ -345,17 +354,18 @@ std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
   const bool by_time = cost == scene::Cost::time && m.passed_over > 0 && f.ns < m.ns;
   const auto at = by_time ? fmt::format("{:.3g} ns", f.ns)
                           : counted(static_cast<std::size_t>(std::round(f.ops)), "operation");
-  const auto which = fmt::format("the {}, at {},",
-                                 m.passed_over > 1    ? "cheapest of them"
-                                 : m.passed_over == 1 ? "cheapest"
-                                                      : "nearest set with one form cheaper",
-                                 at);
+  const auto which =
+      fmt::format("the {} ({})",
+                  m.passed_over > 1    ? "cheapest of them"
+                  : m.passed_over == 1 ? "cheapest"
+                                       : "nearest set with one form cheaper and fewer operations",
+                  at);
   if (f.fails_at_worst())
-    return fmt::format("{} differs by {} at its worst point, where a plan may differ by {}", which,
+    return fmt::format("{} differs by {} at its worst point, and {} is allowed", which,
                        rounded_up(f.error.worst), rounded_down(f.most_worst));
   return m.bounded
              ? fmt::format(
-                   "{} may exceed the limit at {} % of all points. A plan keeps to {} %, so that a "
+                   "{} may exceed the limit at {} % of all points, and {} % is allowed, so that a "
                    "verification on other points agrees",
                    which, rounded_up(100 * f.error.bound), rounded_down(100 * f.most_exceeding))
              : which + " exceeds the limit at too many points";
@@ -370,7 +380,7 @@ std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
            {"time", true},
            {"operations", true},
            {"keep"},
-           {"drop"},
+           {"drop, or simplify →"},
            {fmt::format("{} at {}", unit_name, percent_given(p.tolerance.quantile)), true},
            {"worst", true}},
           {},
@@ -384,15 +394,18 @@ std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
         bound_text(m.checked.worst));
   out.sections = {
       {"What to keep, and how much faster that is",
-       "Times of the effects that a material has, in float, with Kulla and Conty's "
-       "compensation, over the plan's; both of composed column kernels on this machine. "
-       "Operations count no look-ups.",
+       fmt::format("A plan holds where {} of the points differ by {}{} at most, and none by more "
+                   "than {}. Time: that of the plan beside that of all effects which the material "
+                   "has, in float, with Kulla and Conty's lobe, on this machine. Operations count "
+                   "no look-ups.",
+                   percent_given(p.tolerance.quantile), unit, plain(p.tolerance.limit),
+                   plain(p.tolerance.max)),
        {t}},
       spheres(s, p)};
   for (const auto& m : p.materials) out.sections.push_back(one(m, p, unit_name));
   out.setting =
       "Points are what viewers see, half of them near highlights. Every number of the tables is in "
-      "the plan beside it.";
+      "the plan beside it; a spread below 3 % of its time counts as that.";
   return page_html(out, {});
 }
 

@@ -42,7 +42,9 @@ Section plans(const ScenesRows& all) {
       const auto* r = found(all, m, l);
       row.push_back(r ? Cell{speed(r->speedup_float),
                              {},
-                             fmt::format("{} from double. {}", speed(r->speedup),
+                             fmt::format("{}{} against double. {}",
+                                         r->holds ? "" : "No set of forms keeps the tolerance. ",
+                                         speed(r->speedup),
                                          r->kept.empty() ? "Keeps nothing" : "Keeps " + r->kept),
                              "big"}
                       : Cell{"–"});
@@ -61,7 +63,7 @@ Section plans(const ScenesRows& all) {
           plain(all.tolerance.max),
           std::ranges::all_of(all.rows, &SceneRow::holds)
               ? ""
-              : " Where no set of forms does, the nearest stands here; the findings name these."),
+              : " Where no set of forms does, the nearest stands here, and says so."),
       {t},
       "plans"};
 }

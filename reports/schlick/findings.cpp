@@ -185,18 +185,18 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
   if (of_glass.delta_e == 0 || of_metal.delta_e == 0) return;
   to.headline = fmt::format(
       "Schlick in place of exact Fresnel changes rough glass (IOR 1.5) by up to ΔE2000 {}, "
-      "{}; of metals {} most, by up to {}.",
-      rounded_up(of_glass.delta_e), seen_at(of_glass.mu), of_metal.material,
-      rounded_up(of_metal.delta_e));
+      "{}, and metals by up to {} ({}).",
+      rounded_up(of_glass.delta_e), seen_at(of_glass.mu), rounded_up(of_metal.delta_e),
+      of_metal.material);
   to.say(to.headline);
   for (const auto& [form, words] :
        {std::pair<std::string_view, std::string_view>{"fresnel.f82", "F82"},
-        {"fresnel.conductor, three wavelengths", "the exact equation at three wavelengths"}})
+        {"fresnel.conductor, three wavelengths", "The exact equation at three wavelengths"}})
     if (const auto other = most_seen(r, form, true); other.delta_e > 0)
       to.say(
-          fmt::format("Among metals {} changes the colour of rough {} most, by up to ΔE2000 {}. "
-                      "Schlick with the colour as F0 changes it by up to {}.",
-                      words, other.material, rounded_up(other.delta_e),
+          fmt::format("{} changes rough metals by up to ΔE2000 {} ({}). Schlick with the colour as "
+                      "F0 changes that metal by up to {}.",
+                      words, rounded_up(other.delta_e), other.material,
                       rounded_up(most_seen(r, form_id::schlick, true, other.material).delta_e)));
   for (const auto& c : r.rough.colours)
     if (c.form == form_id::schlick && c.mu == 1 && !c.material.starts_with("IOR ") &&

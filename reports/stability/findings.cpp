@@ -5,6 +5,7 @@
 #include <string_view>
 
 #include "brdf/catalogue/registry.h"
+#include "reports/finding/names.h"
 #include "reports/finding/words.h"
 #include "reports/stability/measure.h"
 #include "stability/prove_relative.h"
@@ -57,18 +58,23 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   const auto* cross = find(r, "ndf.ggx", "cross", "half");
   if (!cross) return;
   const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed");
-  std::string answer = fmt::format(
+  to.say(fmt::format(
       "D of GGX, by itself, stays within {} in half from {} on, if the shader computes |n × h|²{}.",
       percent(cross->tolerance, 1), from_text(*cross),
-      flushed ? " and the processor keeps subnormals" : "");
-  if (flushed) answer += fmt::format(" One that flushes them needs {}.", from_text(*flushed));
+      flushed ? " and the processor keeps subnormals" : ""));
+  std::string answer;
+  if (flushed)
+    answer =
+        fmt::format("Where the processor flushes subnormals, D needs {}. ", from_text(*flushed));
   if (const auto& from = (flushed ? flushed : cross)->safe_from)
-    answer += fmt::format(" A clamp there changes only surfaces of a roughness below {}.",
+    answer += fmt::format("A clamp there changes only surfaces of a roughness below {}.",
                           rounded_up(std::sqrt(*from)));
+  if (!answer.empty()) to.say(std::move(answer));
   if (const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed"))
-    answer += fmt::format(" Where NoH is rounded to half instead, it does so from {} on{}.",
-                          from_text(*mobile), evidence_text(*mobile));
-  to.say(std::move(answer));
+    to.say(
+        fmt::format("With NoH rounded to half in the place of |n × h|², D stays within it from "
+                    "{} on{}.",
+                    from_text(*mobile), evidence_text(*mobile)));
   for (const auto& h : r.highlights)
     if (h.number == "half" && h.safe_from && h.finite_from && cross->safe_from) {
       to.say(
@@ -96,9 +102,10 @@ void which_alpha(Findings& to, const StabilityRows& r) {
       const bool nowhere = !row->safe_from || *row->safe_from > 0.9;
       const auto keeps = percent(row->tolerance, 1);
       if (nowhere)
-        to.say(fmt::format("{} in half does not stay within {}: {} there are {}.", o.name, keeps,
+        to.say(fmt::format("{} in half does not stay within {}: {} there are {}{}.", o.name, keeps,
                            row->worst_from_usual ? "even from alpha 0.05 on" : "somewhere",
-                           worst_text(row->worst_from_usual.value_or(row->worst_rel))));
+                           worst_text(row->worst_from_usual.value_or(row->worst_rel)),
+                           evidence_text(*row)));
       else {
         // Half's NoH is taken for exact: its own rounding is that of mixed numbers.
         std::string given = o.form == "cosine" ? ", of a NoH that half holds" : "";
@@ -211,8 +218,8 @@ void clamps(Findings& to, const StabilityRows& r) {
         : !c.no_value_with
             ? fmt::format("without it values are missing {}, with it nowhere", without)
             : fmt::format("values are missing {}", with);
-    to.say(fmt::format("{} in half: {}. It changes values by more than 1\u00a0% {}.", c.clamp,
-                       missing, up_to(c.changed_to)));
+    to.say(fmt::format("{} in half, in {}: {}. It changes values by more than 1\u00a0% {}.",
+                       c.clamp, in_text(c.where), missing, up_to(c.changed_to)));
   }
 }
 

@@ -85,13 +85,15 @@ Section clamp_question(const StabilityRows& all) {
     }
     slot.each.push_back({{number}, {std::move(t)}});
   }
-  return {"Which alpha is safe",
-          "From this alpha on, every input that was tried keeps the tolerance: 2 % in half and "
-          "mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. Inputs count as exact: a NoH that is "
-          "rounded to half on its way adds an error of its own, as ggx.mobile shows in mixed "
-          "numbers. The pointer shows the worst input, also in bits. “From 0.05 on” is the worst "
-          "from that alpha on, for forms that do not keep 2 % there.",
-          {tables({{"number", "Number", "half"}}, std::move(slot))}};
+  return {
+      "Which alpha is safe",
+      "From this alpha on, every input that was tried keeps the tolerance: 2 % in half and "
+      "mixed numbers, 0.0001 in float, 10⁻¹⁰ in double. Inputs count as exact: a NoH that is "
+      "rounded to half on its way adds an error of its own, as ggx.mobile shows in mixed "
+      "numbers. The pointer shows the worst input, also in bits. “Worst” is that of results which "
+      "the number holds as normal ones, over the whole range. “From 0.05 on” is the worst "
+      "from that alpha on, for forms that do not keep 2 % there.",
+      {tables({{"number", "Number", "half"}}, std::move(slot))}};
 }
 
 // --- Pictures
@@ -261,17 +263,17 @@ Section every_form(const StabilityRows& all) {
                 evidence_text(r.evidence) + (r.settled ? "" : ", not settled"));
       if (!t.rows.empty()) slot.each.push_back({{kind, number}, {std::move(t)}});
     }
-  return {
-      "Every form in every number",
-      "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every "
-      "input”: each half there is was evaluated. “Search”: the worst that seeds and climbing "
-      "found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black "
-      "in float, double and mixed numbers, and errors below a half's least normal number are "
-      "measured against that. A Fresnel term in half or mixed numbers keeps 0.002 absolute, since "
-      "it may be next to 0. Vanished: 0 where a value should be. Wrong way: neighbours "
-      "between which the value rises where it should fall. Irreciprocal: another value with "
-      "light and view exchanged. Half raised: flags on the way to the worst input.",
-      {tables({{"kind", "Kind"}, {"number", "Number"}}, std::move(slot))}};
+  return {"Every form in every number",
+          "Over the hard domain: alpha from 10⁻⁶, cosines from 10⁻⁸, extinction up to 1000. “Every "
+          "input”: each half there is was evaluated. “Search”: the worst that seeds and climbing "
+          "found from two starts; there may be worse. Results below 2⁻⁶⁴, 5·10⁻²⁰, count as black "
+          "in float, double and mixed numbers, and errors below a half's least normal number are "
+          "measured against that, which “worst” leaves out. A Fresnel term in half or mixed "
+          "numbers keeps 0.002 absolute, since "
+          "it may be next to 0. Vanished: 0 where a value should be. Wrong way: neighbours "
+          "between which the value rises where it should fall. Irreciprocal: another value with "
+          "light and view exchanged. Half raised: flags on the way to the worst input.",
+          {tables({{"kind", "Kind"}, {"number", "Number"}}, std::move(slot))}};
 }
 
 }  // namespace

@@ -168,6 +168,7 @@ struct Description<scene::MaterialPlan> {
         field("shipped_error_quantile", &M::shipped_quantile,
               "least error_if_dropped among those compensations: without the reference's own error",
               amounts, or_default),
+        field("shipped", &M::shipped, "that compensation", or_default),
         field("reference_error", if_there(&M::reference_error),
               "quantile of two standard errors of the reference on the same points: in the "
               "differences",

@@ -311,8 +311,11 @@ class MaterialPlanner {
              std::tuple(counted_cost(*b), b->forms.form);
     });
     while (!left.empty()) {
-      const double most = counted_cost(*left[0]) + spread(*left[0]);
-      const auto end = std::ranges::find_if(left, [&](auto* c) { return counted_cost(*c) > most; });
+      // A spread is what repetitions in one process leave open: twice that is none between
+      // processes.
+      const double most = counted_cost(*left[0]) + 2 * spread(*left[0]);
+      const auto end = std::ranges::find_if(
+          left, [&](auto* c) { return counted_cost(*c) - 2 * spread(*c) > most; });
       const auto best = std::min_element(left.begin(), end, [&](auto* a, auto* b) {
         return std::tuple(a->ops, a->kept(), a->forms.form) <
                std::tuple(b->ops, b->kept(), b->forms.form);
@@ -371,7 +374,9 @@ class MaterialPlanner {
       if (form == Form::tabulated) continue;
       const Surface s = with(Effect::compensation, form);
       p.shipped_upper = std::min(p.shipped_upper, judged(s).upper);
-      p.shipped_quantile = std::min(p.shipped_quantile, changed_by(s));
+      const double changed = changed_by(s);
+      if (changed < p.shipped_quantile) p.shipped = name_of(form);
+      p.shipped_quantile = std::min(p.shipped_quantile, changed);
     }
   }
 
@@ -504,9 +509,11 @@ bool MaterialPlan::needs_table() const {
   return forms[Effect::compensation] == Form::tabulated;
 }
 
-std::string reference_in_words(std::string_view form) {
+std::string compensation_in_words(std::string_view form) {
   return form == "none"          ? "single scattering"
          : form == "kulla_conty" ? "Kulla and Conty's lobe"
+         : form == "turquin"     ? "Turquin's factor"
+         : form == "fdez_aguera" ? "Fdez-Agüera's factor"
                                  : "walks between facets";
 }
 

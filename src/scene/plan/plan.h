@@ -86,6 +86,7 @@ struct MaterialPlan {
   /// Least upper bound of what light between facets in a form that shaders have leaves, all else exact.
   double shipped_upper = 0;
   double shipped_quantile = 0;  ///< the least quantile of these, without the reference's own error
+  std::string shipped;          ///< the form that leaves it
   bool holds =
       false;  ///< the tolerance; else no form that is offered does, and this is the nearest
   bool could_hold = false;  ///< a set of the front keeps the tolerance: only the budget forbids it
@@ -105,8 +106,8 @@ struct MaterialPlan {
   /// True where no light comes to any of its points, so that every set of forms looks the same.
   bool is_unlit() const { return directions == 0 && checked.worst == 0; }
 };
-/// "Kulla and Conty's lobe", by the form's name: what a plan without bound is compared with.
-std::string reference_in_words(std::string_view form);
+/// "Kulla and Conty's lobe", by the name of a form of compensation.
+std::string compensation_in_words(std::string_view form);
 
 /// A time for all materials, and what came of it.
 struct Budget {

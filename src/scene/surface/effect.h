@@ -64,6 +64,11 @@ inline constexpr std::array<Form, effect_count> cheapest_forms{
 
 /// Forms of an effect, from cheap to exact.
 std::span<const Form> forms_of(Effect);
+/// Whether a form leaves the effect out, where others do it in a simpler way.
+constexpr bool is_absence(Form form) {
+  return form == Form::uncompensated || form == Form::isotropic || form == Form::uncoated ||
+         form == Form::no_diffuse || form == Form::uncoupled;
+}
 /// That of an effect's forms that is named so.
 std::optional<Form> find_form(Effect, std::string_view name);
 

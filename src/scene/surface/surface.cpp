@@ -352,7 +352,7 @@ void Look::offer_forms() {
     offer(Effect::tail, {ggx_tail, gtr_tail}, first_.gamma == 2, "gamma is 2, which is GGX");
   else
     offer(Effect::tail, {ggx_tail}, false,
-          first_.known ? "its tail is its distribution's" : as_given);
+          first_.known ? "its distribution has no other tail" : as_given);
   if (first_.known) {
     offer(Effect::masking, {schlick_k, separable, correlated});
     std::vector<Form> kinds{uncompensated, turquin, fdez_aguera, kulla_conty};
@@ -375,7 +375,8 @@ void Look::offer_forms() {
     offer(Effect::spectrum, {rgb, Form::spectral});
   else
     offer(Effect::spectrum, {rgb}, false,
-          fresnel_.is_named ? "its further lobes have none" : "no spectrum is known of it");
+          fresnel_.is_named ? "its further lobes have none"
+                            : "it is no metal whose spectrum is known");
   // Two sums stand for one lobe of GGX's kind, and for what is diffuse.
   if (!sky_)
     offer(Effect::environment, {split_sum}, false, "no environment lights it");

@@ -73,14 +73,14 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
                 "beyond noise the model is off by a factor of 1.088, "
                 "varying with every angle; intervals allow for it",
                 "the largest systematic deviation is near theta_h 16°, theta_d 68°: the model is "
-                "30 % too dark"}));
+                "too dark by a factor of 1.43"}));
   m.follows = {"theta_h", "grazing angles"};
   EXPECT_NE(misfit_in_words(m)[0].find("varying with theta_h and grazing angles;"),
             std::string::npos);
   m.worst_cell->difference = 2.4;
-  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is 3.4 times as bright as the table"));
+  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is too bright by a factor of 3.4"));
   m.worst_cell->difference = 1.0 / 150 - 1;
-  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is 150 times too dark"));
+  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is too dark by a factor of 150"));
   m.told = false;
   EXPECT_TRUE(misfit_in_words(m).empty());
 }

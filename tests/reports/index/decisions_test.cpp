@@ -167,10 +167,9 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto all = decisions(made_facts());
   const auto& tails = about(all, "Distribution");
   EXPECT_EQ(tails.take_id, "ndf.ggx");
-  EXPECT_EQ(
-      tails.error,
-      "typically ×/÷ 1.5 off measured materials (the median of their published fits; 17 of 20 have "
-      "a longer tail)");
+  EXPECT_EQ(tails.error,
+            "typically ×/÷ 1.5 off measured materials (the median of their published fits; by the "
+            "exponents published with them 17 of 20 have a longer tail)");
   EXPECT_EQ(without_aside(tails.error), "typically ×/÷ 1.5 off measured materials");
   EXPECT_EQ(
       tails.unless,
@@ -184,7 +183,8 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto& below = about(all, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.hammon") << "the only one that makes no light";
   EXPECT_EQ(below.error,
-            "ΔE ≤ 3.5; reflects up to 100.1\u00a0% of the light (Lambert: 191\u00a0%)");
+            "ΔE ≤ 3.5; at cosines from 0.02 on reflects up to 100.1\u00a0% of the light (Lambert: "
+            "191\u00a0%)");
   const auto& light = about(all, "Image-based light");
   EXPECT_EQ(light.take, "Split sum, 32 × 32 table in half precision");
   EXPECT_EQ(light.error, "RMS 0.0008 of E");

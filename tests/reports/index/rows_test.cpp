@@ -187,8 +187,10 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   const auto& below = of(rows, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "Disney's is nearer, and makes more light than any";
-  EXPECT_EQ(below.error,
-            up_to(5.2) + "; reflects up to 140\u00a0% of the light (Lambert: 191\u00a0%)");
+  EXPECT_EQ(
+      below.error,
+      up_to(5.2) +
+          "; at cosines from 0.02 on reflects up to 140\u00a0% of the light (Lambert: 191\u00a0%)");
   EXPECT_EQ(below.unless,
             "you accept up to 220\u00a0% of reflected light: then Disney's diffuse, ΔE ≤ 1")
       << "the nearest of them, and what it gains";
@@ -210,7 +212,8 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   const auto row = of(decisions(all), "Distribution");
   EXPECT_EQ(row.error,
             fmt::format("typically ×/÷ {:.3g} off measured materials (the median of their "
-                        "published fits; 17 of 20 have a longer tail)",
+                        "published fits; by the exponents published with them 17 of 20 have a "
+                        "longer tail)",
                         std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(row.unless, fmt::format("you fit gamma, too (median 1.5 of those determined): then GTR "
                                     "with its own Smith, typically "
@@ -231,7 +234,7 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   const auto row = of(decisions(facts(r)), "Precision");
   EXPECT_EQ(row.take, "|n × h|², α clamped at 0.038") << "at 0.037 it is not kept";
   EXPECT_EQ(row.error,
-            "≤ 2.2\u00a0% on metal, light and view up to 88° (F0 of 0.5 or more; a search found no "
+            "≤ 2.2\u00a0% where F0 is 0.5 or more, light and view up to 88° (a search found no "
             "larger error, which is no proof)");
   EXPECT_EQ(row.cost, "surfaces below roughness 0.2 look like 0.2");
   r.highlights[0].safe_from.reset();

@@ -301,13 +301,13 @@ TEST(ScenesFindings, BlameTheTableOnlyWhereAPlanKeepsIt) {
   r.rows[2].ns_float = 14, r.rows[2].speedup_float = 10.0 / 14;
   const auto f = findings(r);
   const auto at = std::ranges::find(f.sentences,
-                                    "Plans take longer than all that the material has, for chalk "
-                                    "under front light: 20 times as long.");
+                                    "The plan is slower than all effects of the material for chalk "
+                                    "under front light: it takes 20 times as long.");
   ASSERT_NE(at, f.sentences.end());
   EXPECT_EQ(at[1], "Only the tabulated light between facets keeps the tolerance there.");
   EXPECT_EQ(at[2],
-            "Plans take longer than all that the material has, for the material that needs "
-            "everything under rim light: 1.4 times as long.");
+            "The plan is slower than all effects of the material for the material that needs "
+            "everything under rim light: it takes 1.4 times as long.");
   EXPECT_EQ(at[3], "No faster set of forms keeps the tolerance there with a plan's margin.");
 }
 
@@ -364,10 +364,10 @@ TEST(ScenesFindings, SayAtWhichAnglesAnEffectIsSeen) {
             "Chalk of roughness 0.8 needs exact Fresnel with a light about 60° from the viewer.");
   r.maps[0].error[5] = 2;
   EXPECT_EQ(sentence(),
-            "Chalk of roughness 0.8 needs exact Fresnel with a light 60° or more from the viewer.");
+            "Chalk of roughness 0.8 needs exact Fresnel with a light 60° to 120° from the viewer.");
   r.maps[0].error[1] = 2;
   EXPECT_EQ(sentence(),
-            "Chalk of roughness 0.8 needs exact Fresnel under a single light from any side.");
+            "Chalk of roughness 0.8 needs exact Fresnel with a light up to 120° from the viewer.");
   r.maps[0].error[5] = 0;
   EXPECT_EQ(sentence(),
             "Chalk of roughness 0.8 needs exact Fresnel with a light up to 60° from the viewer.");

@@ -130,10 +130,12 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
   const auto f = findings(r);
   EXPECT_EQ(f.sentences[0],
             "D of GGX, by itself, stays within 2\u00a0% in half from alpha 0.004 on, if the shader "
-            "computes |n × h|². "
-            "A clamp there changes only surfaces of a roughness below 0.063. Where NoH is rounded "
-            "to half instead, it does so from alpha 0.22 on, as far as a search found.")
+            "computes |n × h|².")
       << "0.0039 would be below the limit";
+  EXPECT_EQ(f.sentences[1], "A clamp there changes only surfaces of a roughness below 0.063.");
+  EXPECT_EQ(f.sentences[2],
+            "With NoH rounded to half in the place of |n × h|², D stays within it from alpha 0.22 "
+            "on, as far as a search found.");
   EXPECT_TRUE(says(f,
                    "Beckmann from |n × h|² in half does not stay within 2\u00a0%: even from alpha "
                    "0.05 on there are "
@@ -206,8 +208,8 @@ TEST(StabilityFindings, SayWhatClampsSaveAndCostInHalfAlone) {
   ASSERT_EQ(f.sentences.size(), 1U);
   EXPECT_EQ(
       f.sentences[0],
-      "min(D, 2048) in half: without it values are missing up to alpha 0.0022, with it nowhere. It "
-      "changes values by more than 1\u00a0% up to alpha 0.022.");
+      "min(D, 2048) in half, in GGX_Mobile: without it values are missing up to alpha 0.0022, with "
+      "it nowhere. It changes values by more than 1\u00a0% up to alpha 0.022.");
 }
 
 TEST(StabilityFindings, SayWhatIsProvedOnAnyGpu) {
