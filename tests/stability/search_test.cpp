@@ -1,5 +1,6 @@
 #include "stability/search.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
@@ -37,6 +38,16 @@ TEST(Search, FindsTheWorstThatLookingAtEveryPairFinds) {
   EXPECT_GT(found.relative.value, 0.006);
   EXPECT_NEAR(*found.safe_from, 0.00391, 0.0004);
   EXPECT_LT(*found.safe_from, 0.00392);
+}
+
+TEST(Search, FindsNoOtherLimitFromOtherSeeds) {
+  if (test::few(2) < 2) GTEST_SKIP() << "less effort finds less";
+  const auto s = subject("ndf.beckmann", Given::cross);
+  std::vector<double> from;
+  for (const std::uint64_t seed : {1, 2, 3})
+    from.push_back(search(s, {Number::mixed}, {0, seed, 1}).safe_from.value_or(1));
+  const auto [least, most] = std::ranges::minmax(from);
+  EXPECT_LT(most, 1.1 * least);
 }
 
 TEST(Search, IsTheSameForASeedWhateverTheThreads) {

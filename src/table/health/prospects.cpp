@@ -203,8 +203,8 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format("{}; an error common to all values of one angle shows only with 8 angles or "
-                      "more, and with at least two for each free parameter",
+          fmt::format("{}; an error common to all values of one angle is hard to estimate with fewer "
+                      "than 8 angles, or than two for each free parameter",
                       counted(n, "incident angle"))};
 }
 

@@ -150,6 +150,7 @@ TEST(NextSteps, OfAMisfitWereTriedAndMendIt) {
        "alpha=0.1,alpha_2=0.4,f0=0.03,f0_2=0.05,kd=0.03", paint},
       {paint, "alpha=0.2,f0=0.05,kd=0.05", "lambert+beckmann/smith_beckmann.correlated/schlick"},
       {paint, "alpha=0.3,f0=0.05,kd=0.3", "lambert"},
+      {paint, "alpha=0.2,f0=0.05,kd=0.1", "ggx/smith_ggx.correlated/schlick"},
       {"eon", "kd=0.6,r=1", "lambert"},
       {"lambert+gtr/smith_gtr.correlated/schlick", "alpha=0.2,gamma=1.2,f0=0.05,kd=0.05", paint},
       {"lambert+charlie/smith_charlie.correlated/schlick", "alpha=0.4,f0=0.05,kd=0.1", paint}};

@@ -7,6 +7,7 @@
 
 #include "table/paint.h"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -118,6 +119,14 @@ TEST(ValueWarnings, SayThatADetectorWasFull) {
       says(said_of(painted(180), [](const auto&, double f) { return std::round(f * 100) / 100; }),
            "full detector"));
   EXPECT_FALSE(says(said_of(painted(180), [](const auto&, double) { return 0.2; }), "detector"));
+  // Below 0.1 the second digit is ten times as fine.
+  std::mt19937_64 digits(1);
+  EXPECT_FALSE(says(said_of(painted(180),
+                            [&](const auto&, double) {
+                              const double f = 0.0995 * std::exp(0.005 * normal(digits));
+                              return std::stod(fmt::format("{:.2g}", f));
+                            }),
+                    "detector"));
 }
 
 TEST(ValueWarnings, SayThatNoiseWasClippedToALeastValue) {
@@ -134,6 +143,11 @@ TEST(ValueWarnings, SayThatNoiseWasClippedToALeastValue) {
   Table matt = painted(0);  // in plane, and computed: its base is shared
   test::put_values(matt, bind_model("oren_nayar", {{"kd", {0.5}}, {"sigma", {0.5}}}, 1));
   EXPECT_FALSE(says(said_of(matt, as_it_is), "clipped noise?"));
+  // Nor is that of a narrow highlight, beside whose slope are few values.
+  Table narrow = painted(180);
+  test::put_values(narrow, bind_model("lambert+beckmann/smith_beckmann.correlated/schlick",
+                                      {{"kd", {0.1}}, {"alpha", {0.03}}, {"f0", {0.5}}}, 1));
+  EXPECT_FALSE(says(said_of(narrow, as_it_is), "clipped noise?"));
   // Far from a computed highlight all values may be those of its base.
   EXPECT_FALSE(says(said_of(painted(180), [](const auto&, double f) { return std::max(f, 0.1); }),
                     "clipped noise?"));
