@@ -449,7 +449,7 @@ void precision(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Precision: D V F NoL of GGX in half",
        fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
-       fmt::format("≤ {} where F0 is {2:g} or more, light and view up to {1:.0f}° ("
+       fmt::format("≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}° ("
                    "a search found no larger error, which is no proof)",
                    percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
        fmt::format("surfaces below roughness {0} look like {0}",
