@@ -9,6 +9,7 @@
 #include "base/quantile.h"
 #include "brdf/model/evaluate.h"
 #include "fitting/judge/regression.h"
+#include "fitting/judge/scales.h"
 #include "fitting/judge/warnings.h"
 #include "number/distributions.h"
 #include "table/health/lost_values.h"
@@ -22,8 +23,6 @@ constexpr double of_an_interval = 1;    ///< squares beyond noise, of those of n
 constexpr double surely = 0.001;        ///< probability of what no test of the angles finds
 constexpr double beside_noise =
     1.5;  ///< squares of what is left over those of neighbours' differences
-constexpr double most_of_a_scale =
-    0.15;  ///< RMS error of an angle's scale that instruments may have
 
 using namespace misfit;
 
@@ -34,12 +33,39 @@ double mean_square(const Left& left) {
     if (v.change > 0) sum += v.r * v.r / (v.change * v.change), ++n;
   return sum / std::max(n, 1.0);
 }
-/// That of the noise by the median of what neighbours differ by, which no highlight between them moves; or NaN.
+/// That of the noise, at most: half the mean square of what values of a list and those nearest to them differ by beyond the model;
+/// or NaN.
+double noise_square_of_nearest(const Left& left) {
+  constexpr std::size_t asked = 1024;
+  std::vector<std::vector<const Value*>> of_channel(left.unknowns.size());
+  for (const auto& v : left.values)
+    if (v.change > 0) of_channel[v.channel].push_back(&v);
+  const auto distance = [&](const Value* a, const Value* b) {
+    const auto &x = left.units[a->unit].at, &y = left.units[b->unit].at;
+    return a == b ? HUGE_VAL : -dot(x.wi, y.wi) - dot(x.wo, y.wo);
+  };
+  double squares = 0, pairs = 0;
+  for (const auto& values : of_channel) {
+    const std::size_t step = values.size() * of_channel.size() / asked + 1;
+    for (std::size_t i = 0; values.size() > 1 && i < values.size(); i += step) {
+      const Value* const a = values[i];
+      const Value* const b =
+          *std::ranges::min_element(values, {}, [&](const Value* v) { return distance(a, v); });
+      const double apart = a->whole / a->change - b->whole / b->change;
+      squares += apart * apart / 2, ++pairs;
+    }
+  }
+  return pairs > 0 ? squares / pairs : std::nan("");
+}
+/// That of the noise by the median of what neighbours differ by, which no highlight between them moves, or at most what is left of
+/// the nearest values of a list differs by; or NaN.
 double noise_square(const Left& left) {
   std::vector<double> sizes;
   for (const auto& v : left.values)
     if (!std::isnan(v.noise)) sizes.push_back(std::abs(v.noise));
-  return 2 * sizes.size() > left.values.size() ? std::pow(1.4826 * median(sizes), 2) : std::nan("");
+  const double of_lines =
+      2 * sizes.size() > left.values.size() ? std::pow(1.4826 * median(sizes), 2) : std::nan("");
+  return left.turned ? std::fmin(of_lines, noise_square_of_nearest(left)) : of_lines;
 }
 
 /// The table without what the model has within a channel's noise, of which the lower half is lost.
@@ -98,119 +124,6 @@ std::optional<OddAngle> odd_angle(const Left& left, const Sampling& s) {
   return OddAngle{SampleAngles(s.table()).theta_i(sample[a]) / degree, std::exp(deviation)};
 }
 
-std::size_t number_of_angles(const Left& left, SharedAngle axis) {
-  return left.angles[static_cast<std::size_t>(axis)];
-}
-
-/// Axes whose angles may each have a scale: what scatters between them more than values do within them, and but for
-/// incident angles from one to the next.  Places of light and detector follow, where these scatter more than their angles do.
-class Scales {
- public:
-  struct Scaled {
-    SharedAngle of;
-    double square;                     ///< mean square of the scales
-    std::vector<SharedAngle> coarser;  ///< axes that it took the place of
-  };
-  /// \param by_incident  whether those of incident angles are open whatever the values show
-  Scales(const Left& all_values, bool by_incident)
-      : left_(thinned(all_values, most_values)), now_(regress(left_, {}, {}, true)) {
-    if (now_.rounded) return;
-    using enum SharedAngle;
-    if (by_incident && has_room(left_, incident)) open({incident});
-    while (open_best({incident, outgoing, azimuth})) {
-    }
-    refine(light, {incident});
-    refine(detector, {outgoing, azimuth});
-    follows_incident = is_open(incident) && are_smooth(left_, axes_up_to(incident));
-    for (const auto& s : all) {
-      between_few =
-          between_few || (s.of != incident && number_of_angles(left_, s.of) < few_angles &&
-                          s.square > most_between_few * most_between_few);
-      of_all = of_all || common_factor(left_, axes_up_to(s.of)) > most_of_a_scale;
-    }
-  }
-
-  std::vector<Scaled> all;
-  double luck = 1;  ///< probability of one of them by chance
-  /// Whether those of incident angles run smoothly from one to the next, as a wrong Fresnel term's do and an instrument's seldom.
-  bool follows_incident = false;
-  /// Whether so few angles that none can run smoothly differ by more than an instrument's.
-  bool between_few = false;
-  bool of_all =
-      false;  ///< whether they have one factor in common that is more than an instrument's
-
-  std::vector<SharedAngle> axes() const {
-    std::vector<SharedAngle> of;
-    for (const auto& s : all) of.push_back(s.of);
-    return of;
-  }
-
- private:
-  static constexpr double chance = 0.05;
-  static constexpr std::size_t few_angles = 5;
-  static constexpr double most_between_few = 0.045;
-  static constexpr std::size_t most_values = 1 << 13;
-  bool is_open(SharedAngle a) const { return std::ranges::find(all, a, &Scaled::of) != all.end(); }
-  std::vector<SharedAngle> axes_with(SharedAngle a) const {
-    auto of = axes();
-    of.push_back(a);
-    return of;
-  }
-  /// Open axes, `last` the last of them.
-  std::vector<SharedAngle> axes_up_to(SharedAngle last) const {
-    auto of = axes();
-    std::erase(of, last);
-    of.push_back(last);
-    return of;
-  }
-  Regression with(SharedAngle a) const { return regress(left_, axes_with(a), {}, true); }
-  void open(SharedAngle a) { open({a, 0, {}}, with(a)); }
-  void open(Scaled a, Regression there) {
-    luck = std::min(luck, luck_of_scales(now_, there));
-    const double scales = static_cast<double>(there.scales) - static_cast<double>(now_.scales);
-    a.square += std::max(0.0, now_.left - there.left * (1 + scales / left_.samples));
-    all.push_back(std::move(a));
-    now_ = std::move(there);
-  }
-  bool open_best(std::initializer_list<SharedAngle> among) {
-    std::optional<SharedAngle> best;
-    Regression of_best;
-    double least = chance;
-    for (const SharedAngle a : among) {
-      if (is_open(a) || !has_room(left_, a)) continue;
-      Regression there = with(a);
-      const double p = luck_of_scales(now_, there);
-      if (p > least || (p == least && best && there.left >= of_best.left)) continue;
-      if (a != SharedAngle::incident && are_smooth(left_, axes_with(a))) continue;
-      least = p, best = a, of_best = std::move(there);
-    }
-    if (best) open({*best, 0, {}}, std::move(of_best));
-    return best.has_value();
-  }
-  void refine(SharedAngle a, std::initializer_list<SharedAngle> coarser) {
-    const auto same = [&](SharedAngle x) {
-      return number_of_angles(left_, x) == number_of_angles(left_, a);
-    };
-    if (!has_room(left_, a) || std::ranges::any_of(coarser, same)) return;
-    Scaled finer{a, 0, {}};
-    std::vector<SharedAngle> of;
-    for (const auto& s : all)
-      if (std::ranges::find(coarser, s.of) == coarser.end())
-        of.push_back(s.of);
-      else
-        finer.coarser.push_back(s.of), finer.square += s.square;
-    of.push_back(a);
-    Regression there = regress(left_, of, {}, true);
-    if (luck_of_scales(now_, there) > chance || are_smooth(left_, of)) return;
-    std::erase_if(
-        all, [&](const Scaled& s) { return std::ranges::find(coarser, s.of) != coarser.end(); });
-    open(std::move(finer), std::move(there));
-  }
-
-  const Left left_;
-  Regression now_;
-};
-
 /// Regressions that decide, the first of which is of single values where there is one.
 struct Tests {
   struct One {
@@ -241,6 +154,18 @@ Tests test(const Left& left, bool measured, bool by_angle) {
       for (std::size_t c = 0; c < left.unknowns.size(); ++c)
         t.all.push_back({regress(left, gains, clustered, false, c), clustered.has_value(),
                          left.unknowns.size()});
+    for (std::size_t k = 0; left.turned && k < azimuths.size(); ++k) {
+      Harmonics harmonics{azimuths[k]};
+      t.all.push_back(
+          {regress(left, gains, clustered, false, {}, harmonics), clustered.has_value()});
+      if (!t.all.back().regression.limited) continue;
+      // A wave that has one order needs few angles.
+      for (int order = Harmonics{}.first; order <= Harmonics{}.last; ++order) {
+        harmonics.first = harmonics.last = order;
+        t.all.push_back(
+            {regress(left, gains, clustered, false, {}, harmonics), clustered.has_value()});
+      }
+    }
   };
   if (!measured) return add({}, {}), t;
   const auto incident = number_of_angles(left, SharedAngle::incident);
@@ -268,6 +193,95 @@ Tests test(const Left& left, bool measured, bool by_angle) {
     add({}, shared ? std::optional(SharedAngle::incident) : std::nullopt);
   }
   return t;
+}
+
+/// What the tests say of a model.
+struct Verdict {
+  Misfit misfit;
+  double excess = 0;                      ///< squares beyond noise, of those of noise
+  const Regression* likeliest = nullptr;  ///< of the tests
+  double within = 0;                      ///< mean square of what is left within an angle, of f
+};
+/// \param more   times as many values as were looked at
+/// \param retro  whether values at wo = wi lie alone
+Verdict verdict_of(const Tests& tests, const Left& left, double more, bool retro) {
+  Verdict v;
+  Misfit& m = v.misfit;
+  double& excess = v.excess;
+  const Regression& first = tests.all[0].regression;
+  const auto alike =
+      static_cast<std::size_t>(std::ranges::count(tests.all, 0U, &Tests::One::apart));
+  double least = 1;
+  for (const auto& one : tests.all) {
+    const auto& [r, clustered, apart] = one;
+    const double by_luck = one.p_of(alike);
+    if (!r.tested || (apart && !(by_luck < significant))) continue;
+    if (!v.likeliest || by_luck < least) v.likeliest = &r, least = by_luck;
+    m.size = m.tested ? std::max(m.size, r.size) : r.size;
+    m.tested = true;
+    if (r.noise > 0) excess = std::max(excess, r.excess / r.noise * (clustered ? 1 : more));
+  }
+  if (m.tested) {
+    m.p = least;
+    m.told = m.p < significant && m.size > v.likeliest->rounding &&
+             (m.size > worth_telling || excess > of_an_interval);
+  }
+  // Scales that take up everything leave nothing within an angle.
+  v.within = first.left > 0 || !tests.scaled.empty() ? first.left : mean_square(left);
+  if (first.p_beside_noise < surely && first.beside_noise > beside_noise &&
+      first.left > worth_telling * worth_telling) {
+    m.told = true;
+    m.p = std::min(m.tested ? m.p : 1.0, first.p_beside_noise);
+    excess = std::max(excess, 1 - 1 / first.beside_noise);
+  }
+  if (retro) {  // a highlight that gains of angles may take up
+    m.told = true;
+    m.p = std::min(m.tested ? m.p : 1.0, surely);
+    excess = std::max(excess, 1 - first.left / std::max(mean_square(left), first.left));
+  }
+  const double most_of_scales = tests.are_a_models ? worth_telling : most_of_a_scale;
+  if (tests.p_of_scales < surely && tests.of_scales > most_of_scales * most_of_scales) {
+    m.told = true;
+    m.p = std::min(m.tested ? m.p : 1.0, tests.p_of_scales);
+    excess = std::max(excess, tests.of_scales / mean_square(left));
+  }
+  return v;
+}
+
+/// What a fit would leave that knew the scales: values that they lift or lower pull the fit to where the model bends other than its
+/// derivatives say, most where unknowns and a scale do nearly the same, as a metal's two indices.
+Left left_beside(const Sampling& s,
+                 const Problem& p,
+                 Fitted f,
+                 const Tests& tests,
+                 Left left,
+                 TableFacts& facts) {
+  std::vector<SharedAngle> gains;
+  for (const auto& scaled : tests.scaled) gains.push_back(scaled.of);
+  constexpr int rounds = 6, halvings = 5;
+  constexpr double settled = 1e-4;  // of the squares
+  auto step = step_beside(left, gains);
+  for (int round = 0; round < rounds; ++round) {
+    bool moved = false;
+    double part = 1;
+    for (int k = 0; k < halvings && !moved; ++k, part /= 2) {
+      Fitted there = f;
+      for (std::size_t u = 0; u < left.slots.size(); ++u) {
+        const std::size_t slot = left.slots[u], i = p.free.index(slot);
+        there.model.values[slot] = std::clamp(f.model.values[slot] + part * step.of_slot[u],
+                                              p.bounds.low[i], p.bounds.high[i]);
+      }
+      Left at = left_over(s, p, there, facts);
+      auto next = step_beside(at, gains);
+      if (!(next.squares < step.squares)) continue;
+      moved = next.squares < (1 - settled) * step.squares;
+      f = std::move(there), left = std::move(at), step = std::move(next);
+      break;
+    }
+    if (!moved) break;
+  }
+  find_variances(left);
+  return left;
 }
 
 std::vector<LackOfFit::SharedGains> gains_of(const Left& left,
@@ -307,6 +321,8 @@ LackOfFit lack_of_all(
   LackOfFit found;
   Misfit& m = found.misfit;
   bool by_logarithms = s.metric() == Metric::log;
+  std::optional<Sampling> logs;
+  Fitted judged = f;
   Left left = left_over(s, p, f, facts);
   const auto alone =
       !p.options.robust && p.free.size() > 0 ? outliers(left) : std::optional<Outliers>();
@@ -335,16 +351,16 @@ LackOfFit lack_of_all(
       100 * left.without_logarithm <= left.values.size()) {
     // Whose squares weigh such noise unequally the highlight alone determines the parameters, whose
     // errors move faint values by far more than these are wrong: and none of that is a misfit.
-    const Sampling logs = s.by(Metric::log, p.offset);
-    left = left_over(logs, p, compared_by(logs, p, scan_samples, f), facts);
+    logs.emplace(s.by(Metric::log, p.offset));
+    judged = compared_by(*logs, p, scan_samples, f);
+    left = left_over(*logs, p, judged, facts);
     find_variances(left);
     by_logarithms = true;
   }
   const bool by_angle = p.options.intervals == Intervals::by_angle;
-  const Tests tests =
-      test(left, by_angle || (!s.table().truth && p.options.intervals != Intervals::independent),
-           by_angle);
-  const Regression& first = tests.all[0].regression;
+  const bool measured =
+      by_angle || (!s.table().truth && p.options.intervals != Intervals::independent);
+  Tests tests = test(left, measured, by_angle);
   if (std::ranges::all_of(tests.all, [](const auto& t) { return t.regression.rounded; })) {
     m.note = "what is left is no more than the values' own rounding";
     return found;
@@ -352,44 +368,20 @@ LackOfFit lack_of_all(
   // Of all values, noise is as much less as there are more of them than were looked at; what values
   // share is not.
   const double more = std::max(1.0, samples_used / left.samples);
-  double excess = 0;
-  const Regression* likeliest = nullptr;
-  const auto alike =
-      static_cast<std::size_t>(std::ranges::count(tests.all, 0U, &Tests::One::apart));
-  double least = 1;
-  for (const auto& one : tests.all) {
-    const auto& [r, clustered, apart] = one;
-    const double by_luck = one.p_of(alike);
-    if (!r.tested || (apart && !(by_luck < significant))) continue;
-    if (!likeliest || by_luck < least) likeliest = &r, least = by_luck;
-    m.size = m.tested ? std::max(m.size, r.size) : r.size;
-    m.tested = true;
-    if (r.noise > 0) excess = std::max(excess, r.excess / r.noise * (clustered ? 1 : more));
+  Verdict verdict = verdict_of(tests, left, more, alone.has_value());
+  if (verdict.misfit.told && !alone && !tests.scaled.empty()) {
+    const Left beside = left_beside(logs ? *logs : s, p, judged, tests, left, facts);
+    Tests there = test(beside, measured, by_angle);
+    if (Verdict v = verdict_of(there, beside, more, false);
+        !v.misfit.told && !there.scaled.empty()) {
+      tests = std::move(there);
+      verdict = verdict_of(tests, beside, more, false);
+    }
   }
-  if (m.tested) {
-    m.p = least;
-    m.told = m.p < significant && m.size > likeliest->rounding &&
-             (m.size > worth_telling || excess > of_an_interval);
-  }
-  // Scales that take up everything leave nothing within an angle.
-  const double within = first.left > 0 || !tests.scaled.empty() ? first.left : mean_square(left);
-  if (first.p_beside_noise < surely && first.beside_noise > beside_noise &&
-      first.left > worth_telling * worth_telling) {
-    m.told = true;
-    m.p = std::min(m.tested ? m.p : 1.0, first.p_beside_noise);
-    excess = std::max(excess, 1 - 1 / first.beside_noise);
-  }
-  if (alone) {  // a highlight that gains of angles may take up
-    m.told = true;
-    m.p = std::min(m.tested ? m.p : 1.0, surely);
-    excess = std::max(excess, 1 - first.left / std::max(mean_square(left), first.left));
-  }
-  const double most_of_scales = tests.are_a_models ? worth_telling : most_of_a_scale;
-  if (tests.p_of_scales < surely && tests.of_scales > most_of_scales * most_of_scales) {
-    m.told = true;
-    m.p = std::min(m.tested ? m.p : 1.0, tests.p_of_scales);
-    excess = std::max(excess, tests.of_scales / mean_square(left));
-  }
+  m = verdict.misfit;
+  const Regression& first = tests.all[0].regression;
+  const Regression* const likeliest = verdict.likeliest;
+  const auto [excess, within] = std::pair(verdict.excess, verdict.within);
   if (!m.told) {
     found.gains = gains_of(left, p, tests);
     // A wrong model's residuals may look like a factor per incident angle, but not like one per

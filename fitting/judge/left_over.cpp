@@ -87,7 +87,7 @@ class AngleNumbers {
       keys = {keys[0], keys[0], Key{0, out}, Key{0, phi}, Key{phi, out}};
     } else if (list_) {
       const auto place = [&](const auto& theta_deg, const auto& phi_deg) {
-        const long theta = thousandths(theta_deg[sample]), turn = 360'000;
+        const long theta = thousandths(theta_deg[sample]), turn = 2 * half_turn;
         const long phi = (thousandths(phi_deg[sample]) % turn + turn) % turn;
         return Key{theta == 0 ? 0 : phi, theta};  // at the normal an azimuth means nothing
       };
@@ -101,6 +101,15 @@ class AngleNumbers {
     return all;
   }
   void give(Left& to) const {
+    if (list_) {  // at the normal the light has no azimuth, and is at number 0
+      const auto& lights = numbers_[static_cast<std::size_t>(SharedAngle::light)];
+      const auto azimuth = [](const auto& light) { return light.first[0] % half_turn; };
+      const auto first =
+          std::ranges::find_if(lights, [](const auto& l) { return l.first[1] != 0; });
+      to.turned = first != lights.end() && std::ranges::any_of(lights, [&](const auto& l) {
+                    return l.first[1] != 0 && azimuth(l) != azimuth(*first);
+                  });
+    }
     for (std::size_t a = 0; a < (grid_ || list_ ? shared_angles : 1); ++a) {
       to.angles[a] = numbers_[a].size();
       to.places[a].resize(numbers_[a].size());
@@ -110,6 +119,7 @@ class AngleNumbers {
 
  private:
   using Key = std::array<long, 2>;
+  static constexpr long half_turn = 180'000;
   static long thousandths(double deg) { return std::lround(deg * 1000); }
   IncidentKeys incident_;
   const DirectionList* list_;
@@ -169,6 +179,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
   Readings readings(s.has_frame());
   const auto offset = s.link_offset();
   const FileRounding rounding = rounding_of(s.table());
+  const SampleAngles at(s.table());
   const std::size_t members = s.groups().widest();
   const Tasks tasks(s, std::max<std::size_t>(most_values / (members * looked_at), 64),
                     BlockReader<double>::block);
@@ -202,7 +213,7 @@ Left left_over(const Sampling& s, const Problem& p, const Fitted& f, TableFacts&
               unit = all.units.size();
               const std::size_t sample = in.sample(m)[i];
               all.units.push_back({functions(a), cell_of(a), numbers_of(sample, in.nol(m)[i]),
-                                   s.count_of(sample), x.nov[i]});
+                                   s.count_of(sample), x.nov[i], at.directions(sample)});
               all.directions += all.units.back().count;
             }
             auto& v = all.values.emplace_back();

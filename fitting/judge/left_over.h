@@ -18,8 +18,9 @@
 namespace gonio::misfit {
 
 /// Directions of misfit: what usually follows an angle, and the functions that tell it.
-enum class Follows { nothing, theta_h, theta_d, grazing };
-inline constexpr std::array<std::string_view, 4> names{"", "theta_h", "theta_d", "grazing angles"};
+enum class Follows { nothing, theta_h, theta_d, grazing, azimuth };
+inline constexpr std::array<std::string_view, 5> names{"", "theta_h", "theta_d", "grazing angles",
+                                                       "the surface's azimuth"};
 
 /// Smooth functions of the angles: of few samples the first `smooth`, of many the `fine`.
 inline constexpr std::size_t smooth = 10, fine = 12;
@@ -65,6 +66,7 @@ struct Unit {
   std::array<std::size_t, shared_angles> angle;  ///< its number along each axis
   double count;                                  ///< samples that it counts as
   double nov;
+  DirectionPair at;
 };
 
 /// Residuals of a table, and the units that share their errors.
@@ -82,6 +84,8 @@ struct Left {
   double directions = 0;              ///< that the units count as
   bool robust = false;
   bool stated = false;  ///< whether residuals are in standard errors that the table states
+  /// Whether the surface was turned beneath the light, by anything but half turns.
+  bool turned = false;
 };
 
 /// A parameter at a bound can take nothing up: it is no unknown here.

@@ -152,6 +152,38 @@ class Projected {
     gains_.taken_up(scores, &all);
     return all;
   }
+  /// Standard error that noise of the values makes of each channel's mean factor along the last axis, through the unknowns.
+  std::vector<double> errors_of_means() const {
+    double squares = 0, freedom = -static_cast<double>(rank_);
+    for (std::size_t i = 0; i < left_.values.size(); ++i) {
+      squares += residual(i) * residual(i);
+      freedom += left_.values[i].root_count * left_.values[i].root_count;
+    }
+    const double variance = squares / std::max(freedom, 1.0);
+    const std::size_t channels = left_.unknowns.size();
+    Columns means = Columns::Zero(inverse_.rows(), index(channels));
+    std::vector<double> scores(left_.values.size());
+    std::vector<std::vector<double>> factors;
+    for (std::size_t k = 0; k < j_.size(); ++k) {
+      for (std::size_t i = 0; i < scores.size(); ++i)
+        scores[i] = left_.values[i].active * left_.values[i].j[k];
+      gains_.taken_up(scores, &factors);
+      const auto& last = factors.back();
+      for (std::size_t c = 0; c < channels; ++c) {
+        if (k >= left_.unknowns[c].size()) continue;
+        for (std::size_t g = c; g < last.size(); g += channels)
+          means(index(left_.unknowns[c][k]), index(c)) +=
+              last[g] * static_cast<double>(channels) / static_cast<double>(last.size());
+      }
+    }
+    std::vector<double> all;
+    for (Eigen::Index c = 0; c < means.cols(); ++c) {
+      const VectorXd of = means.col(c);
+      all.push_back(std::sqrt(std::max(0.0, variance * of.dot(times(inverse_, of)))));
+    }
+    return all;
+  }
+  const VectorXd& step() const { return step_; }
   /// Changes of the unknowns by one value's residual.
   VectorXd influence(std::size_t i) const {
     VectorXd j = VectorXd::Zero(inverse_.rows());
@@ -350,7 +382,8 @@ Regression regress(const Left& found,
                    const std::vector<SharedAngle>& gains,
                    std::optional<SharedAngle> clustered,
                    bool only_scatter,
-                   std::optional<std::size_t> apart) {
+                   std::optional<std::size_t> apart,
+                   const std::optional<Harmonics>& harmonics) {
   Regression out;
   std::optional<Left> settled;
   if (!gains.empty() && found.robust) settle(settled.emplace(found), gains);
@@ -381,7 +414,14 @@ Regression regress(const Left& found,
   out.scales = Gains(left, gains).count();
   if (only_scatter) return out;
 
-  const std::size_t width = left.directions >= 500 ? fine : smooth;
+  const auto functions_of = [&](const Unit& unit) {
+    if (harmonics) return values_of(*harmonics, unit);
+    return std::vector(unit.functions.begin(),
+                       unit.functions.begin() + (left.directions >= 500 ? fine : smooth));
+  };
+  std::vector<std::vector<double>> of_unit;
+  for (const auto& unit : left.units) of_unit.push_back(functions_of(unit));
+  const std::size_t width = of_unit.front().size();
   const auto q = index(width);
   const Clusters clusters(left, clustered);
   std::vector<std::vector<double>> functions(width, std::vector<double>(r.size()));
@@ -389,7 +429,7 @@ Regression regress(const Left& found,
   double weight = 0;
   for (std::size_t i = 0; i < r.size(); ++i) {
     const auto& v = left.values[i];
-    const auto& own = left.units[v.unit].functions;
+    const auto& own = of_unit[v.unit];
     const double side = !apart                ? 1
                         : v.channel == *apart ? 1
                                               : -1 / static_cast<double>(left.unknowns.size() - 1);
@@ -453,27 +493,37 @@ Regression regress(const Left& found,
   out.size = std::sqrt(out.excess / weight);
   for (std::size_t g = 1; g < names.size(); ++g) {
     std::vector<Eigen::Index> own;
-    for (std::size_t k = 0; k < width; ++k)
+    for (std::size_t k = 0; !harmonics && k < width; ++k)
       if (static_cast<std::size_t>(belongs[k]) == g) own.push_back(index(k));
     out.follows[g] = sum(own).dot(Inverse(noise(own, own)).inverse * VectorXd(sum(own)));
   }
-  judge_cells(left, projected, r, clusters, out);
+  if (harmonics)
+    out.follows[static_cast<std::size_t>(Follows::azimuth)] = out.excess;
+  else
+    judge_cells(left, projected, r, clusters, out);
   return out;
 }
 
 namespace {
 
-/// Logarithms of the last axis's factors, [angle · channels + channel].
-std::vector<double> last_factors(const Left& found, const std::vector<SharedAngle>& gains) {
-  std::optional<Left> settled;
-  if (found.robust) settle(settled.emplace(found), gains);
-  return Projected(settled ? *settled : found, gains).factors().back();
-}
+/// What remains of the residuals beside gains, once a robust fit's values are clipped beside these.
+class BesideGains {
+ public:
+  BesideGains(const Left& found, const std::vector<SharedAngle>& gains) : settled_(found) {
+    if (found.robust) settle(settled_, gains);
+    projected_.emplace(settled_, gains);
+  }
+  const Projected& projected() const { return *projected_; }
+
+ private:
+  Left settled_;
+  std::optional<Projected> projected_;  // refers to what stands before it
+};
 
 }  // namespace
 
 bool are_smooth(const Left& left, const std::vector<SharedAngle>& gains) {
-  const auto factors = last_factors(left, gains);
+  const auto factors = BesideGains(left, gains).projected().factors().back();
   const auto& places = left.places[static_cast<std::size_t>(gains.back())];
   const std::size_t channels = left.unknowns.size();
   std::vector<std::size_t> order(places.size());
@@ -499,15 +549,29 @@ bool are_smooth(const Left& left, const std::vector<SharedAngle>& gains) {
 }
 
 double common_factor(const Left& left, const std::vector<SharedAngle>& gains) {
-  const auto factors = last_factors(left, gains);
+  const BesideGains beside(left, gains);
+  const auto factors = beside.projected().factors().back();
+  const auto errors = beside.projected().errors_of_means();
   const std::size_t channels = left.unknowns.size(), angles = factors.size() / channels;
+  constexpr double surely = 3;  // standard errors
   double largest = 0;
   for (std::size_t c = 0; c < channels; ++c) {
     double sum = 0;
     for (std::size_t k = 0; k < angles; ++k) sum += factors[k * channels + c];
-    largest = std::max(largest, std::abs(sum) / static_cast<double>(angles));
+    largest = std::max(largest, std::abs(sum) / static_cast<double>(angles) - surely * errors[c]);
   }
   return largest;
+}
+
+StepBeside step_beside(const Left& left, const std::vector<SharedAngle>& gains) {
+  const BesideGains beside(left, gains);
+  const Projected& projected = beside.projected();
+  StepBeside step{0, {}};
+  for (std::size_t i = 0; i < left.values.size(); ++i)
+    step.squares += projected.residual(i) * projected.residual(i);
+  for (Eigen::Index k = 0; k < projected.step().size(); ++k)
+    step.of_slot.push_back(-projected.step()[k]);
+  return step;
 }
 
 std::vector<double> moved_by_gains(const Left& left, SharedAngle axis) {

@@ -6,6 +6,7 @@
 #include <optional>
 #include <vector>
 
+#include "fitting/judge/azimuths.h"
 #include "fitting/judge/left_over.h"
 #include "fitting/result/document.h"
 
@@ -40,12 +41,14 @@ bool has_room(const Left&, SharedAngle);
 /// \param only_scatter  finds what is left and its freedom, and tests nothing
 /// \param apart      channel whose residuals follow the functions otherwise than those of the others, as a width that depends on the
 ///                   channel makes them; none: all follow them alike
+/// \param harmonics  the functions; none: the smooth ones, and cells
 /// The variances are found before.
 Regression regress(const Left&,
                    const std::vector<SharedAngle>& gains = {},
                    std::optional<SharedAngle> clustered = {},
                    bool only_scatter = false,
-                   std::optional<std::size_t> apart = {});
+                   std::optional<std::size_t> apart = {},
+                   const std::optional<Harmonics>& harmonics = {});
 
 /// Probability that scales of angles scatter so by chance.
 /// \param open  the same regression with the scales open
@@ -55,9 +58,16 @@ double luck_of_scales(const Regression&, const Regression& open);
 /// Neumann's ratio]: these are no gains, which know nothing of each other, but what a model misses.
 /// \param gains  the axes whose scales are open
 bool are_smooth(const Left&, const std::vector<SharedAngle>& gains);
-/// Largest of the channels' mean logarithms of the last axis's factors: what is no gain of any angle, but a scale of the table that
-/// the model lacks.
+/// Largest of the channels' mean logarithms of the last axis's factors, less what noise may do to it through unknowns that may take
+/// a scale up, too: what is no gain of any angle, but a scale of the table that the model lacks.
 double common_factor(const Left&, const std::vector<SharedAngle>& gains);
+
+/// Step of each unknown, as Left::slots has them, to its best value beside the scales, and the squares that it is to lessen.
+struct StepBeside {
+  double squares;
+  std::vector<double> of_slot;
+};
+StepBeside step_beside(const Left&, const std::vector<SharedAngle>& gains);
 
 /// Standard errors of the unknowns by a gain for each angle, whose standard error is 1 in ln f.
 std::vector<double> moved_by_gains(const Left&, SharedAngle);
