@@ -258,27 +258,29 @@ Left left_beside(const Sampling& s,
                  TableFacts& facts) {
   std::vector<SharedAngle> gains;
   for (const auto& scaled : tests.scaled) gains.push_back(scaled.of);
-  constexpr int rounds = 6, halvings = 5;
-  constexpr double settled = 1e-4;  // of the squares
+  constexpr int tries = 24;
+  constexpr double settled = 1e-4, most_damped = 1e6, towards_bound = 0.9;
+  double damping = 1e-3;
   auto step = step_beside(left, gains);
-  for (int round = 0; round < rounds; ++round) {
-    bool moved = false;
-    double part = 1;
-    for (int k = 0; k < halvings && !moved; ++k, part /= 2) {
-      Fitted there = f;
-      for (std::size_t u = 0; u < left.slots.size(); ++u) {
-        const std::size_t slot = left.slots[u], i = p.free.index(slot);
-        there.model.values[slot] = std::clamp(f.model.values[slot] + part * step.of_slot[u],
-                                              p.bounds.low[i], p.bounds.high[i]);
-      }
-      Left at = left_over(s, p, there, facts);
-      auto next = step_beside(at, gains);
-      if (!(next.squares < step.squares)) continue;
-      moved = next.squares < (1 - settled) * step.squares;
-      f = std::move(there), left = std::move(at), step = std::move(next);
-      break;
+  for (int k = 0; k < tries && damping < most_damped; ++k) {
+    Fitted there = f;
+    const auto by = step.damped(damping);
+    for (std::size_t u = 0; u < left.slots.size(); ++u) {
+      const std::size_t slot = left.slots[u], i = p.free.index(slot);
+      double& x = there.model.values[slot];  // at a bound it would be no unknown
+      x += std::clamp(by[u], towards_bound * (p.bounds.low[i] - x),
+                      towards_bound * (p.bounds.high[i] - x));
     }
-    if (!moved) break;
+    Left at = left_over(s, p, there, facts);
+    auto next = step_beside(at, gains);
+    if (!(next.squares < step.squares)) {
+      damping *= 8;
+      continue;
+    }
+    damping /= 8;
+    const bool is_settled = next.squares > (1 - settled) * step.squares;
+    f = std::move(there), left = std::move(at), step = std::move(next);
+    if (is_settled) break;
   }
   find_variances(left);
   return left;

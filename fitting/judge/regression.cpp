@@ -83,6 +83,7 @@ class Projected {
           each(i, [&](Eigen::Index l, double other) { a(k, l) += v.active * j * other; });
       });
     }
+    products_ = a, scores_ = g;
     Inverse solved(a);
     rank_ = solved.rank + gains_.count();
     inverse_ = std::move(solved.inverse);
@@ -101,6 +102,12 @@ class Projected {
   double residual(std::size_t i) const {
     const auto& v = left_.values[i];
     return v.active > 0 ? v.r - taken_up_[i] : v.r;
+  }
+  /// Residual less what the gains explain without the unknowns.
+  double beside_gains(std::size_t i) const {
+    double r = residual(i);
+    if (left_.values[i].active > 0) each(i, [&](Eigen::Index k, double j) { r += j * step_[k]; });
+    return r;
   }
   /// Least-squares fit to a column: the unknowns' moves, and each value's change by the gains, empty without gains.
   struct Part {
@@ -183,7 +190,9 @@ class Projected {
     }
     return all;
   }
-  const VectorXd& step() const { return step_; }
+  const Columns& products() const { return products_; }
+  /// Σ j r of the unknowns, downhill.
+  VectorXd descent() const { return -scores_; }
   /// Changes of the unknowns by one value's residual.
   VectorXd influence(std::size_t i) const {
     VectorXd j = VectorXd::Zero(inverse_.rows());
@@ -229,10 +238,10 @@ class Projected {
   const Left& left_;
   Gains gains_;
   std::size_t rank_ = 0;
-  Columns inverse_;
+  Columns products_, inverse_;          // of the derivatives beside the gains
   std::vector<std::vector<double>> j_;  ///< [unknown of a channel][value]
   std::vector<double> taken_up_;
-  VectorXd step_;
+  VectorXd scores_, step_;
 };
 
 /// Cells, each one function of its own: 1 in it and 0 elsewhere, projected as the smooth ones are.
@@ -566,12 +575,17 @@ double common_factor(const Left& left, const std::vector<SharedAngle>& gains) {
 StepBeside step_beside(const Left& left, const std::vector<SharedAngle>& gains) {
   const BesideGains beside(left, gains);
   const Projected& projected = beside.projected();
-  StepBeside step{0, {}};
+  StepBeside step{0, projected.products(), projected.descent()};
   for (std::size_t i = 0; i < left.values.size(); ++i)
-    step.squares += projected.residual(i) * projected.residual(i);
-  for (Eigen::Index k = 0; k < projected.step().size(); ++k)
-    step.of_slot.push_back(-projected.step()[k]);
+    step.squares += std::pow(projected.beside_gains(i), 2);
   return step;
+}
+
+std::vector<double> StepBeside::damped(double by) const {
+  Columns a = products;
+  for (Eigen::Index k = 0; k < a.rows(); ++k) a(k, k) *= 1 + by;
+  const VectorXd step = Inverse(a).inverse * descent;
+  return {step.begin(), step.end()};
 }
 
 std::vector<double> moved_by_gains(const Left& left, SharedAngle axis) {

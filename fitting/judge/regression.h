@@ -9,6 +9,7 @@
 #include "fitting/judge/azimuths.h"
 #include "fitting/judge/left_over.h"
 #include "fitting/result/document.h"
+#include "fitting/solve/matrix.h"
 
 namespace gonio::misfit {
 
@@ -62,10 +63,12 @@ bool are_smooth(const Left&, const std::vector<SharedAngle>& gains);
 /// a scale up, too: what is no gain of any angle, but a scale of the table that the model lacks.
 double common_factor(const Left&, const std::vector<SharedAngle>& gains);
 
-/// Step of each unknown, as Left::slots has them, to its best value beside the scales, and the squares that it is to lessen.
+/// Squares that the scales leave, and what lessens them: steps of the unknowns, as Left::slots has them [Levenberg, Marquardt].
 struct StepBeside {
   double squares;
-  std::vector<double> of_slot;
+  Columns products;  ///< of the derivatives
+  VectorXd descent;
+  std::vector<double> damped(double by) const;
 };
 StepBeside step_beside(const Left&, const std::vector<SharedAngle>& gains);
 
