@@ -321,9 +321,12 @@ FitResult fit_and_judge(const Table& t,
   for (const auto& w : t.warnings)
     if (!(d.misfit.reproduces() && is_answered_by_a_fit(w))) d.warnings.push_back(w);
   FitFacts facts{judged.angles, p.free.size(), found.cost_of_fewer, needless};
+  std::vector<std::pair<std::size_t, std::string>> guesses;  // of the values' unit
   for (auto& w : value_warnings(table)) {
     if (w.of_scale && o.scale == Scale::free) continue;
     facts.no_f = facts.no_f || w.of_unit;
+    facts.no_scale = facts.no_scale || w.of_scale;
+    if (!w.guess.empty()) guesses.emplace_back(d.warnings.size(), w.guess);
     d.warnings.push_back(std::move(w.text));
   }
   facts.odd_angle = lack.odd_angle;
@@ -346,14 +349,19 @@ FitResult fit_and_judge(const Table& t,
       return std::nan("");
     }
   };
+  bool knows_unit = false;
   d.next = next_steps(
       o, d, facts, [&](const std::string& spec) { return attempt(t, o, spec); },
       [&](double left) {
         const auto as_given = [&](const Table& as, const FitOptions& with) {
           return attempt(as, with, with.model);
         };
-        return tries ? other_unit(t, o, left, as_given) : std::nullopt;
+        auto unit = tries ? other_unit(t, o, left, as_given) : std::nullopt;
+        knows_unit = unit.has_value();
+        return unit;
       });
+  if (!knows_unit)  // else a unit was found that mends the fit
+    for (const auto& [k, guess] : guesses) d.warnings[k] += guess;
   return {std::move(d), std::move(found.best.model), std::move(without_lobes)};
 }
 

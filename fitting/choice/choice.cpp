@@ -211,7 +211,7 @@ ModelChoice compare_models(const Table& t,
     if (!(is_answered_by_a_fit(w) &&
           std::ranges::any_of(choice.rows, [](const auto& r) { return r.compared && !r.misses; })))
       choice.warnings.push_back(w);
-  for (auto& w : value_warnings(columns.facts(t))) choice.warnings.push_back(std::move(w.text));
+  for (auto& w : value_warnings(columns.facts(t))) choice.warnings.push_back(w.whole());
   auto& rows = choice.rows;
   if (refused && std::ranges::none_of(rows, &ModelRow::compared)) std::rethrow_exception(refused);
   const ModelRow* nearest = least(rows, [](const auto& r) { return r.log_rms; });

@@ -50,6 +50,31 @@ Table in_unit(const Table& t, const TriedUnit& u) {
   return as;
 }
 
+/// What the model leaves of values known up to one factor.
+struct AnyScale {
+  double log_rms = std::nan("");
+  bool is_option = true;  ///< whether --scale free takes the model
+};
+AnyScale of_any_scale(const Table& t, const FitOptions& o, const TryTable& attempt) {
+  AnyScale any;
+  FitOptions open = o;
+  try {
+    open = with_weights(o);
+  } catch (const Error&) {  // its lobes have no weights, but its colours take up what is dark
+    any.is_option = false;
+  }
+  // Where a highlight is far above the other values, its weight would be more than 1 but at a
+  // smaller scale.
+  constexpr double smaller = 0.01;
+  double factor = working_factor(t);
+  for (int k = 0; k < 3; ++k, factor *= smaller) {
+    Table scaled = t;
+    scale_values(scaled, factor);
+    any.log_rms = std::fmin(any.log_rms, attempt(scaled, open));
+  }
+  return any;
+}
+
 }  // namespace
 
 std::optional<OtherUnit> other_unit(const Table& t,
@@ -63,36 +88,32 @@ std::optional<OtherUnit> other_unit(const Table& t,
   std::vector<double> left(units.size());
   tbb::parallel_for(std::size_t{0}, units.size(),
                     [&](std::size_t k) { left[k] = attempt(in_unit(t, units[k]), o); });
-  double of_any_scale = std::nan("");
-  try {
-    Table scaled = t;
-    scale_values(scaled, working_factor(t));
-    of_any_scale = attempt(scaled, with_weights(o));
-  } catch (const Error&) {  // its lobes have no weights
-  }
   const auto less = [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); };
   const auto best = std::ranges::min_element(left, less);
+  const AnyScale any = of_any_scale(t, o, attempt);
   const double most = far_less * here;
-  if (*best <= most && !(of_any_scale * as_well < *best)) {
-    const TriedUnit& u = units[static_cast<std::size_t>(best - left.begin())];
+  if (*best <= most && !(any.log_rms * as_well < *best)) {
+    // The first that does as well: values of a model that takes up a scale say nothing of it.
+    const auto first = std::ranges::find_if(left, [&](double x) { return x <= as_well * *best; });
+    const TriedUnit& u = units[static_cast<std::size_t>(first - left.begin())];
     return OtherUnit{
         fmt::format(
             "values may be {}: read so, the model is off by a factor of {} instead of {} ({})",
-            u.in_words, typical_factor(*best), typical_factor(here),
+            u.in_words, typical_factor(*first), typical_factor(here),
             reading_command(t,
                             [&](ColumnMap& map) {
                               map.scale *= u.scale;
                               map.cosines = {map.cosines.incident + u.cosines.incident,
                                              map.cosines.outgoing + u.cosines.outgoing};
                             })),
-        *best};
+        *first};
   }
-  if (!(of_any_scale <= most)) return {};
+  if (!any.is_option || !(any.log_rms <= most)) return {};
   return OtherUnit{
       fmt::format(
           "--scale free fits values known up to one factor: off by a factor of {} instead of {}",
-          typical_factor(of_any_scale), typical_factor(here)),
-      of_any_scale};
+          typical_factor(any.log_rms), typical_factor(here)),
+      any.log_rms};
 }
 
 }  // namespace gonio

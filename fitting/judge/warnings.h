@@ -25,6 +25,7 @@ struct FitFacts {
   double cost_of_fewer = std::numeric_limits<double>::infinity();  ///< of the model less one lobe
   bool needless = false;       ///< whether the diffuse terms alone do as well
   bool no_f = false;           ///< whether values are of another unit, or have a cosine left in
+  bool no_scale = false;       ///< whether they return more light than arrives, or next to none
   bool few_angles = false;     ///< whether they are too few for errors that an angle's values share
   bool beyond_stated = false;  ///< whether what is left is more than the table's own uncertainties
   bool offset = false;         ///< whether negative values are an offset rather than noise

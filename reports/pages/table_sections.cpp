@@ -17,7 +17,6 @@ namespace {
 using page::Group;
 
 constexpr double two_sigma = 1.96;    ///< half a 95 % interval, in standard uncertainties
-constexpr double noise_alone = 0.95;  ///< median difference of exchanged directions over σ
 
 std::string noise_share(const Noise& n) {
   return percent(std::max(*n.sigma, n.bound ? 1e-4 : 0));
@@ -203,14 +202,6 @@ std::vector<std::string> table_warnings(const gonio::Table& t,
              lost = static_cast<double>(masked(h, Mask::negative) + masked(h, Mask::not_finite));
   if (lost > 0.02 * above)
     warn("Many masked values:", percent(lost / above) + " of those above the horizon.");
-  if (h.reciprocity_error && *h.reciprocity_error > std::max(0.05, 2 * h.noise.sigma.value_or(0)))
-    warn("Not reciprocal:",
-         fmt::format("exchanging the directions changes a value by {} (median){}.",
-                     percent(*h.reciprocity_error),
-                     h.noise.sigma && !h.noise.bound
-                         ? fmt::format(", where noise would change it by {}",
-                                       percent(noise_alone * *h.noise.sigma))
-                         : ""));
   return out;
 }
 

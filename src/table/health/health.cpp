@@ -244,7 +244,7 @@ Health inspect(const Table& t) {
   }
   h.retro = facts.retro();
   h.prospects = prospects(facts, h);
-  for (auto& w : value_warnings(facts)) h.warnings.push_back(std::move(w.text));
+  for (auto& w : value_warnings(facts)) h.warnings.push_back(w.whole());
   return h;
 }
 

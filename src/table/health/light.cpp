@@ -90,7 +90,7 @@ std::string without_channel(const Table& t, std::size_t channel) {
   return fmt::format(" (gonio fit {} --channels{} leaves it out)", file_word(t), others);
 }
 
-void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& all) {
+std::vector<LightWarning> warnings_of_light(TableFacts& facts, bool divided) {
   const Table& t = facts.table();
   const auto unit = [&](double light) { return divided ? "" : unit_of(t, light); };
   constexpr double rounding = 1e-9;
@@ -114,27 +114,28 @@ void warn_of_light(TableFacts& facts, bool divided, std::vector<std::string>& al
     if (c != brightest) others = std::max(others, of_channel[c]);
   constexpr double of_its_own = 30;  // times as bright as all others: no colour
   if (most > too_much && others > 0 && others < 1 && shown > of_its_own * others) {
-    all.push_back(fmt::format(
-        "channel {} returns {:.3g} times the light at theta_i {:.3g}°, the others at most {:.2g}: "
-        "a scale of its own?{}",
-        t.channels[brightest], shown, at, others, without_channel(t, brightest)));
-    return;
+    return {
+        {fmt::format("channel {} returns {:.3g} times the light at theta_i {:.3g}°, the others at "
+                     "most {:.2g}: a scale of its own?{}",
+                     t.channels[brightest], shown, at, others, without_channel(t, brightest)),
+         ""}};
   }
-  if (most > too_much) {
-    all.push_back(fmt::format("the table returns {:.3g} times the light at theta_i {:.3g}°{}",
-                              shown, at, unit(shown)));
-    return;
-  }
+  if (most > too_much)
+    return {{fmt::format("the table returns {:.3g} times the light at theta_i {:.3g}°", shown, at),
+             unit(shown)}};
+  std::vector<LightWarning> all;
   constexpr double next_to_nothing = 5e-4;
   if (whole > 0 && whole < next_to_nothing)
-    all.push_back(
-        fmt::format("the table returns {:.2g} of the light: a relative scale? (gonio fit {} "
-                    "--scale free fits that, too)",
-                    whole, file_word(t)));
+    all.push_back({fmt::format("the table returns {:.2g} of the light", whole),
+                   fmt::format(": a relative scale? (gonio fit {} --scale free fits that, too)",
+                               file_word(t))});
   if (const auto bright = bright_everywhere(t))
-    all.push_back(fmt::format(
-        "values at theta_i {:.3g}° are above 1/pi: probably {:.3g} times the light or more{}",
-        bright->second, bright->first, unit(bright->first)));
+    all.push_back(
+        {fmt::format(
+             "values at theta_i {:.3g}° are above 1/pi: probably {:.3g} times the light or more",
+             bright->second, bright->first),
+         unit(bright->first)});
+  return all;
 }
 
 }  // namespace gonio

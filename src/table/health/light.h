@@ -9,9 +9,14 @@
 
 namespace gonio {
 
-/// Says that a table returns more light than arrives, or next to none, and which unit its values may have.
+/// How much light a table returns, in words, and what unit the values may have that return so much, with the command that reads
+/// them so; "" where none is likely.
+struct LightWarning {
+  std::string text, guess;
+};
+/// Of more light than arrives, or next to none.
 /// \param divided  by a cosine: a scale says nothing then
-void warn_of_light(TableFacts&, bool divided, std::vector<std::string>& all);
+std::vector<LightWarning> warnings_of_light(TableFacts&, bool divided);
 
 /// Command that leaves a channel out, in brackets.
 std::string without_channel(const Table&, std::size_t channel);

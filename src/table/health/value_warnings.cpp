@@ -93,8 +93,9 @@ std::optional<std::size_t> negative_channel(TableFacts& facts) {
 std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   std::vector<std::string> texts, cosine;
   const auto* c = warn_of_cosine(facts, cosine);
-  warn_of_light(facts, c && c->incident + c->outgoing < 0, texts);
-  const std::size_t of_scale = texts.size();
+  std::vector<ValueWarning> all;
+  for (auto& w : warnings_of_light(facts, c && c->incident + c->outgoing < 0))
+    all.push_back({std::move(w.text), true, true, std::move(w.guess)});
   if (!c && warn_of_elevation(facts, texts))
     cosine.clear();  // of exchanged directions there is nothing more to say
   const bool is_told = !cosine.empty();
@@ -107,9 +108,7 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   warn_of_dark_channels(facts.table(), texts);
   warn_of_zeros(facts, texts);
   warn_of_sure_values(facts.table(), texts);
-  std::vector<ValueWarning> all;
-  for (auto& text : texts)
-    all.push_back({std::move(text), all.size() < of_unit, all.size() < of_scale});
+  for (std::size_t k = 0; k < texts.size(); ++k) all.push_back({std::move(texts[k]), k < of_unit});
   return all;
 }
 

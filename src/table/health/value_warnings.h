@@ -15,7 +15,10 @@ struct ValueWarning {
   std::string text;
   bool of_unit;  ///< light, a cosine, angles or an offset: no model is to blame for what it misses
                  ///< then
-  bool of_scale = false;  ///< light: not of a table whose scale is free
+  bool of_scale = false;   ///< light: not of a table whose scale is free
+  std::string guess = {};  ///< what unit that may be, which follows the text
+
+  std::string whole() const { return text + guess; }
 };
 std::vector<ValueWarning> value_warnings(TableFacts&);
 
