@@ -364,7 +364,9 @@ LackOfFit lack_of_all(
       by_angle || (!s.table().truth && p.options.intervals != Intervals::independent);
   Tests tests = test(left, measured, by_angle);
   if (std::ranges::all_of(tests.all, [](const auto& t) { return t.regression.rounded; })) {
-    m.note = "what is left is no more than the values' own rounding";
+    m.too_few = left.values.size() <= p.free.size();
+    m.note = m.too_few ? "no more values than unknowns"
+                       : "what is left is no more than the values' own rounding";
     return found;
   }
   // Of all values, noise is as much less as there are more of them than were looked at; what values

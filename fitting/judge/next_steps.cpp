@@ -283,11 +283,12 @@ std::vector<std::string> next_steps(const FitOptions& o,
           fmt::format("hold {} (--fix) if it is known from elsewhere: these data hardly tell it",
                       hardly.front()));
   }
-  if (f.dark_bias > 0 && !f.clipped)
-    steps.add("--metric l2_cosine gives dark values, whose logarithms noise lowers, less weight");
-  else if (d.log_offset > 0)
-    steps.add(fmt::format("--metric l2_cosine gives dark values, which the {}, less weight",
-                          f.offset ? "offset lowers" : "noise floor lifts"));
+  const bool is_dark_noisy = f.dark_bias > 0 && !f.clipped;
+  if ((is_dark_noisy || d.log_offset > 0) && !d.misfit.told)  // other weights mend no model
+    steps.add(fmt::format("--metric l2_cosine gives dark values, {}, less weight",
+                          is_dark_noisy ? "whose logarithms noise lowers"
+                          : f.offset    ? "which the offset lowers"
+                                        : "which the noise floor lifts"));
   if (f.few_angles)
     steps.add("8 incident angles or more would show errors common to all values of one angle");
   if (steps.empty() && !otherwise.empty()) steps.add(otherwise);

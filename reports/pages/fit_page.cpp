@@ -317,22 +317,23 @@ std::string fit_page_html(const FitDocument& d,
   const double log_rms = d.residuals.log_rms;
   std::size_t all_values = d.values_used;  // with those that a mask took out of the table
   for (const auto& [why, n] : d.masked) all_values += n;
-  const char* const does = d.misfit.told           ? "misses"
-                           : d.misfit.too_few      ? "may fit (too few to tell)"
-                           : d.misfit.outliers > 0 ? "follows outliers among"
-                                                   : "reproduces";
+  struct Words {
+    const char *title, *does, *to;
+  };
+  const Words words_of_verdict =
+      d.misfit.told           ? Words{"does not fit", "misses", " by"}
+      : d.misfit.too_few      ? Words{"may fit", "may fit (too few to tell)", " to"}
+      : d.misfit.outliers > 0 ? Words{"follows outliers of", "follows outliers among", ", to"}
+                              : Words{"fitted to", "reproduces", " to"};
   Pictures pictures;
-  Page out{"", "fit", d.input_path,
-           fmt::format("{} {} {}", model_names(std::array{d.model})[0],
-                       d.misfit.told ? "does not fit" : "fitted to", file)};
+  Page out{
+      "", "fit", d.input_path,
+      fmt::format("{} {} {}", model_names(std::array{d.model})[0], words_of_verdict.title, file)};
   out.first.emplace_back(
       Prose{fmt::format("`{}` {} the {} values used of `{}`{} a typical factor of **{}** (log RMS "
                         "{}); the fit {}.{}",
-                        d.model, does, count_text(d.values_used), file,
-                        d.misfit.told           ? " by"
-                        : d.misfit.outliers > 0 ? ", to"
-                                                : " to",
-                        factor_text(log_rms), significant(log_rms),
+                        d.model, words_of_verdict.does, count_text(d.values_used), file,
+                        words_of_verdict.to, factor_text(log_rms), significant(log_rms),
                         d.solver.termination == "converged" ? "converged" : "**did not converge**",
                         !p.has_lobe && !parse_model(d.model).lobes.empty()
                             ? " Numbers and pictures are of the fit without the lobe."

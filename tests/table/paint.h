@@ -52,7 +52,7 @@ inline std::vector<ValueWarning> warnings_of(
 inline std::vector<std::string> said_of(
     Table t, const std::function<double(const Angles<double>&, double)>& change) {
   std::vector<std::string> all;
-  for (auto& w : warnings_of(std::move(t), change)) all.push_back(std::move(w.text));
+  for (auto& w : warnings_of(std::move(t), change)) all.push_back(w.whole());
   return all;
 }
 inline bool says(const std::vector<std::string>& all, std::string_view words) {

@@ -427,6 +427,13 @@ TEST(LackOfFit, OfTooFewValuesIsNotKnownAndThatIsSaid) {
       1);
 }
 
+TEST(LackOfFit, OfNoMoreValuesThanUnknownsIsNotKnownThoughAllAreMet) {
+  const auto d = fit_of(test::list_of({0.1, 0.2}));
+  EXPECT_LT(d.residuals.log_rms, 1e-6);
+  EXPECT_FALSE(d.misfit.told);
+  EXPECT_FALSE(d.misfit.reproduces());
+}
+
 TEST(LackOfFit, OfFewMeasuredAnglesIsToldThoughTheScaleOfEachIsLeftOpen) {
   Table t = synthesize(test::bind("lambert+gtr/smith_ggx.correlated/schlick",
                                   "alpha=0.3,gamma=1.2,f0=0.05,kd=0.05", 1),

@@ -351,6 +351,9 @@ TEST(NextSteps, OfATableThatKnowsTooLittleAreAboutTheTable) {
   EXPECT_TRUE(step(keep, f).starts_with("fit without --copies keep"));
   d.log_offset = 0.001;
   EXPECT_TRUE(step({}, f).starts_with("--metric l2_cosine"));
+  d.misfit.told = true;  // which other weights do not mend
+  d.next = next_steps({}, d, f, none_fits);
+  EXPECT_FALSE(names(d, "--metric"));
 }
 
 TEST(NextSteps, KnowWhichBinConventionMeetsTheTable) {

@@ -164,6 +164,8 @@ TEST(FitPage, SaysInItsHeadingThatAModelDoesNotFit) {
   d.model = "lambert";
   d.input_path = "a.csv";
   EXPECT_NE(html_of(d).find("<h1>Lambert fitted to a.csv</h1>"), std::string::npos);
+  d.misfit.too_few = true;
+  EXPECT_NE(html_of(d).find("<h1>Lambert may fit a.csv</h1>"), std::string::npos);
   d.misfit.told = true;
   const auto html = html_of(d);
   EXPECT_NE(html.find("<h1>Lambert does not fit a.csv</h1>"), html.npos);

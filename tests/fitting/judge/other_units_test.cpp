@@ -1,0 +1,62 @@
+// The unit that is named is the one that mends the fit best.
+#include "fitting/judge/other_units.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "fitting/fit.h"
+#include "fitting/support.h"
+#include "table/format/measured_by.h"
+#include "tables.h"
+
+#include <gtest/gtest.h>
+
+namespace gonio {
+namespace {
+
+FitDocument fit_of_scaled(const char* model, const char* settings, double scale) {
+  Table t =
+      synthesize(test::bind(model, settings, 1), {.layout = Layout::hemisphere, .noise = 0.01});
+  t.truth.reset();  // as if measured
+  scale_values(t, scale);
+  FitOptions o;
+  o.model = model;
+  return fit(t, o).document;
+}
+
+TEST(OtherUnit, OfAnyScaleIsAFreeOneAndNoUnitIsGuessedBesideIt) {
+  for (const double scale : {4321.0, 100.0, 17.0}) {
+    const auto d =
+        fit_of_scaled("ggx/smith_ggx.correlated/conductor", "alpha=0.15,eta=1.2,k=5", scale);
+    ASSERT_FALSE(d.next.empty()) << scale;
+    EXPECT_TRUE(d.next[0].starts_with("--scale free")) << d.next[0];
+    for (const auto& w : d.warnings) {
+      EXPECT_EQ(w.find("radiance factor"), w.npos) << w;
+      EXPECT_EQ(w.find("counts?"), w.npos) << w;
+    }
+    EXPECT_TRUE(std::ranges::any_of(
+        d.warnings, [](const auto& w) { return w.starts_with("the table returns"); }));
+  }
+}
+
+TEST(OtherUnit, OfRadianceFactorsIsThatThoughOthersDoAsWell) {
+  const auto d = fit_of_scaled("lambert", "kd=0.4", std::numbers::pi);
+  ASSERT_FALSE(d.next.empty());
+  EXPECT_TRUE(d.next[0].starts_with("values may be radiance factors:")) << d.next[0];
+}
+
+TEST(OtherUnit, OfAModelWithoutWeightsIsNoneWhereAnotherScaleMendsMore) {
+  Table t = synthesize(test::bind("eon", "kd=0.4,r=0.5", 1), {.layout = Layout::hemisphere});
+  t.truth.reset();
+  scale_values(t, 4321);
+  FitOptions o;
+  o.model = "eon";
+  // Of values that are too bright in any unit, and are all met where they are dark.
+  const auto attempt = [](const Table& as, const FitOptions&) {
+    return std::ranges::max(as.values[0]) < 0.02 ? 0.01 : 1.5;
+  };
+  EXPECT_FALSE(other_unit(t, o, 7, attempt));
+}
+
+}  // namespace
+}  // namespace gonio
