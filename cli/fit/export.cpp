@@ -62,8 +62,9 @@ void print(const Export& e) {
 /// A map's textures.
 Exit run_map(const ExportCall& o) {
   if (!takes_maps(o.target))
-    throw wrong_usage(fmt::format("--to {}: a map is written for gltf, open_pbr and usd_preview",
-                                  name_of(o.target)));
+    throw wrong_usage(
+        fmt::format("--to {}: a map is written for gltf, mitsuba, open_pbr and usd_preview",
+                    name_of(o.target)));
   const fs::path output(o.output);
   const std::string stem = output.stem().string();
   if (o.target != ExportTarget::gltf &&
@@ -145,7 +146,7 @@ void add_export(CommandLine& line) {
                                "from the fit, and keeps the fit in the file",
                                "gonio export fit.json --to gltf -o paint.gltf", run);
   c.option("FIT", o->fit,
-           "Document of a fit, or the map of gonio fit_map (gltf, open_pbr, usd_preview)")
+           "Document of a fit, or the map of gonio fit_map (gltf, mitsuba, open_pbr, usd_preview)")
       .required();
   c.option("--to", o->target, "Format of the file").required();
   c.option("--tolerance", o->tolerance,

@@ -4,7 +4,6 @@
 #include <array>
 #include <atomic>
 #include <cmath>
-#include <filesystem>
 #include <limits>
 #include <utility>
 
@@ -16,14 +15,10 @@
 #include "base/text.h"
 #include "brdf/model/evaluate.h"
 #include "brdf/model/own_files.h"
-#include "brdf/term/map.h"
-#include "fitting/export/map_files.h"
-#include "fitting/export/placement.h"
+#include "fitting/export/map_target.h"
 #include "fitting/export/target.h"
 #include "geometry/half_difference.h"
-#include "image/display.h"
 #include "image/exr.h"
-#include "image/png.h"
 #include "stack/parameter_image.h"
 #include "table/table.h"
 
@@ -72,83 +67,6 @@ namespace {
 
 constexpr std::size_t rows_at_once = 16, judged = 32;
 constexpr std::size_t most_texels = std::size_t{1} << 24;
-constexpr double largest_ior = 10;
-
-/// A texel's material.
-struct Texel {
-  std::array<double, 3> base{}, f0{};
-  double roughness = 1;
-  bool metal = false;
-};
-
-/// Numbers of a colour: of grey three times the same.
-double of(const std::vector<double>& values, std::size_t c) {
-  return values.empty() ? 0 : values[values.size() == 3 ? c : 0];
-}
-
-Texel texel_of(const BoundModel& model) {
-  Texel t;
-  const Surface s = surface_of(model);
-  const SurfaceLobe* lobe = nullptr;
-  for (const auto& placed : placements(s))
-    if (placed.base && !lobe) {
-      lobe = placed.base;
-      t.metal = placed.metal;
-    }
-  if (lobe) t.roughness = one_roughness(*lobe);
-  for (std::size_t c = 0; c < 3; ++c) {
-    t.f0[c] = lobe ? lobe->weight * of(lobe->f0, c) : 0;
-    t.base[c] = t.metal ? t.f0[c] : of(s.kd, c);
-  }
-  return t;
-}
-
-/// Eight bits of a number of [0, 1], and back.
-unsigned char byte_of(double x) {
-  return static_cast<unsigned char>(std::lround(255 * std::clamp(x, 0.0, 1.0)));
-}
-double from_srgb(unsigned char byte) {
-  const double x = byte / 255.0;  // IEC 61966-2-1
-  return x <= 0.04045 ? x / 12.92 : std::pow((x + 0.055) / 1.055, 2.4);
-}
-
-double f0_of(double ior) {
-  return mapped<F0FromIor, double>(ior, 1.0)[0];
-}
-/// Bytes of a texel in the textures.
-struct TexelBytes {
-  std::array<unsigned char, 3> base{}, rough{}, tint{};
-};
-TexelBytes bytes_of(const Texel& t, double strongest, ExportTarget target) {
-  TexelBytes b;
-  b.rough = {0, byte_of(t.roughness), static_cast<unsigned char>(t.metal ? 255 : 0)};
-  for (std::size_t c = 0; c < 3; ++c)
-    if (target == ExportTarget::usd_preview) {
-      b.base[c] = srgb_byte(t.metal ? 0 : t.base[c]);
-      b.tint[c] = srgb_byte(t.f0[c]);
-    } else {
-      b.base[c] = srgb_byte(t.base[c]);
-      b.tint[c] = srgb_byte(t.metal || strongest <= 0 ? 1 : t.f0[c] / strongest);
-    }
-  return b;
-}
-/// Parameters of a target by its own names.
-TargetParameters parameters_of(const TexelBytes& b, double ior, ExportTarget target) {
-  std::vector<double> base, tint;
-  for (std::size_t c = 0; c < 3; ++c) {
-    base.push_back(from_srgb(b.base[c]));
-    tint.push_back(from_srgb(b.tint[c]));
-  }
-  const double roughness = b.rough[1] / 255.0, metal = b.rough[2] / 255.0;
-  if (target == ExportTarget::usd_preview)
-    return {{"diffuseColor", base}, {"specularColor", tint}, {"roughness", {roughness}}};
-  if (target == ExportTarget::open_pbr)
-    return {{"base_color", base},     {"base_metalness", {metal}},
-            {"specular_weight", {1}}, {"specular_color", tint},
-            {"specular_ior", {ior}},  {"specular_roughness", {roughness}}};
-  return {{"base_color", base}, {"metallic", {metal}}, {"roughness", {roughness}},
-          {"ior", {ior}},       {"specular", {1}},     {"specular_color", tint}};
-}
 
 std::vector<FrameAngles<double>> judged_angles() {
   std::vector<FrameAngles<double>> all;
@@ -209,17 +127,27 @@ std::vector<std::vector<double>> sample_of(const BoundModel& start,
   return seen;
 }
 
-/// F0 that one in 100 texels that are no metals exceeds, of those that know all.
-double strongest_highlight(const BoundModel& start, const std::vector<std::vector<double>>& seen) {
-  std::vector<double> f0;
+/// What a target asks of a map before its texels are kept, of those that know all.
+MapSummary summary_of(const BoundModel& start, const std::vector<std::vector<double>>& seen) {
+  constexpr double strong = 0.99;  // a texel whose fit went astray sets nothing for all others
+  std::vector<double> f0, kd;
+  MapSummary summary;
   BoundModel here = start;
   for (std::size_t t = 0; !seen.empty() && t < seen[0].size(); ++t) {
     for (std::size_t v = 0; v < seen.size(); ++v) here.values[v] = seen[v][t];
     if (std::ranges::any_of(here.values, [](double v) { return std::isnan(v); })) continue;
-    const Texel texel = texel_of(here);
-    if (!texel.metal) f0.push_back(*std::ranges::max_element(texel.f0));
+    const Surface s = surface_of(here);
+    kd.push_back(s.largest_kd());
+    if (s.lobes.size() > summary.anisotropic.size()) summary.anisotropic.resize(s.lobes.size());
+    for (std::size_t l = 0; l < s.lobes.size(); ++l)
+      if (s.lobes[l].alpha_x != s.lobes[l].alpha_y) summary.anisotropic[l] = true;
+    const auto shown = shown_lobe(s);
+    if (!shown.metal) f0.push_back(shown.lobe ? shown.lobe->weight * shown.lobe->largest_f0() : 0);
   }
-  return f0.empty() ? f0_of(1.5) : std::min(quantile(f0, 0.99), f0_of(largest_ior));
+  if (kd.empty()) summary.anisotropic.resize(surface_of(start).lobes.size());
+  if (!f0.empty()) summary.strong_f0 = quantile(f0, strong);
+  if (!kd.empty()) summary.strong_kd = quantile(kd, strong);
+  return summary;
 }
 
 /// Values of a map where a texel does not know its own, and for how many they stand.
@@ -273,36 +201,29 @@ class MapMedians {
   std::vector<std::atomic<std::size_t>> missing_;  ///< [parameter]
 };
 
-/// Normals of a map as a texture; no pixels where it has none.
-PngImage normals_of(const std::string& path) {
-  PngImage png;
-  png.is_srgb = false;
+/// Normals of a map as textures have them, [axis][texel], each part of them in [0, 1]; empty where it has none.
+std::vector<std::vector<float>> normals_of(const std::string& path) {
   const auto file = open_image(path);
   std::vector<std::size_t> channels;
   for (const char* axis : {"normal.X", "normal.Y", "normal.Z"}) {
     const auto at = std::ranges::find(file->channels(), axis);
-    if (at == file->channels().end()) return png;
+    if (at == file->channels().end()) return {};
     channels.push_back(static_cast<std::size_t>(at - file->channels().begin()));
   }
-  png.width = file->width();
-  png.height = file->height();
-  std::array<std::vector<float>, 3> rows;
-  std::array<float*, 3> into{};
-  for (std::size_t y = 0; y < png.height; y += rows_at_once) {
-    const Rectangle part{0, y, png.width, std::min(rows_at_once, png.height - y)};
-    for (std::size_t k = 0; k < 3; ++k) {
-      rows[k].resize(part.size());
-      into[k] = rows[k].data();
-    }
+  const std::size_t width = file->width();
+  std::vector normals(3, std::vector<float>(width * file->height()));
+  for (std::size_t y = 0; y < file->height(); y += rows_at_once) {
+    const Rectangle part{0, y, width, std::min(rows_at_once, file->height() - y)};
+    std::array<float*, 3> into{};
+    for (std::size_t k = 0; k < 3; ++k) into[k] = normals[k].data() + y * width;
     file->read(part, channels, into);
-    for (std::size_t t = 0; t < part.size(); ++t) {
-      const bool known = !std::isnan(rows[0][t] + rows[1][t] + rows[2][t]);
-      auto& pixel = png.pixels.emplace_back();
+    for (std::size_t t = y * width; t < y * width + part.size(); ++t) {
+      const bool known = !std::isnan(normals[0][t] + normals[1][t] + normals[2][t]);
       for (std::size_t k = 0; k < 3; ++k)
-        pixel[k] = byte_of(known ? (double{rows[k][t]} + 1) / 2 : k == 2 ? 1 : 0.5);
+        normals[k][t] = known ? (normals[k][t] + 1) / 2 : k == 2 ? 1.0F : 0.5F;
     }
   }
-  return png;
+  return normals;
 }
 
 }  // namespace
@@ -315,8 +236,7 @@ bool is_map(const std::string& path) {
 }
 
 bool takes_maps(ExportTarget target) {
-  return target == ExportTarget::gltf || target == ExportTarget::open_pbr ||
-         target == ExportTarget::usd_preview;
+  return target != ExportTarget::standard_surface;
 }
 
 MapExport export_map(const std::string& path,
@@ -354,42 +274,21 @@ MapExport export_map(const std::string& path,
   const BoundModel start = bind_model(model, {}, channels);
 
   auto seen = sample_of(start, path, texels);
-  const double strongest = strongest_highlight(start, seen);
-  e.ior = mapped<IorFromF0, double>(strongest)[0];
-
-  MapTextures textures;
-  for (auto* png : {&textures.base, &textures.rough, &textures.tint}) {
-    png->width = e.width;
-    png->height = e.height;
-    png->pixels.resize(texels);
-  }
-  textures.rough.is_srgb = false;
+  const MapSummary summary = summary_of(start, seen);
+  e.ior = summary.ior();
+  const auto target_map = map_target(target, e, summary);
   const auto at = judged_angles();
-  Surface with_a_lobe;
-  with_a_lobe.channels = 3;
-  with_a_lobe.kd.assign(3, 0.5);
-  with_a_lobe.lobes.push_back(
-      {0.3, 0.3, 1, {0.04, 0.04, 0.04}, {1, 1, 1}, {1.5, 1.5, 1.5}, {0, 0, 0}});
-  const Target& of = target == ExportTarget::usd_preview ? usd_preview_target
-                     : target == ExportTarget::open_pbr  ? open_pbr_target
-                                                         : gltf_target;
-  const auto forms = of.forms(with_a_lobe);
-  const TargetForm& form = target == ExportTarget::gltf ? forms.back() : forms.front();
   std::vector<float> residuals(texels, std::numeric_limits<float>::quiet_NaN());
   std::vector<unsigned char> metal(texels);
   MapMedians medians(start, std::move(seen));
   for_each_texel(start, path, [&](std::size_t t, BoundModel& fit) {
     const bool knew = medians.fill(fit);
-    const Texel texel = texel_of(fit);
-    const TexelBytes bytes = bytes_of(texel, strongest, target);
-    textures.base.pixels[t] = bytes.base;
-    textures.rough.pixels[t] = bytes.rough;
-    textures.tint.pixels[t] = bytes.tint;
-    metal[t] = texel.metal;
+    const Surface surface = surface_of(fit);
+    target_map->keep(t, surface);
+    metal[t] = shown_lobe(surface).metal;
     if (knew)
       residuals[t] =
-          static_cast<float>(residual_of(form.values(parameters_of(bytes, e.ior, target), at),
-                                         evaluate(fit, at), surface_of(fit)));
+          static_cast<float>(residual_of(target_map->values(t, at), evaluate(fit, at), surface));
   });
   e.metals = static_cast<std::size_t>(std::ranges::count(metal, 1));
   std::erase_if(residuals, [](float r) { return std::isnan(r); });
@@ -400,25 +299,8 @@ MapExport export_map(const std::string& path,
     e.median_residual = double{residuals[residuals.size() / 2]};
     e.high_residual = double{residuals[residuals.size() - 1 - residuals.size() / 20]};
   }
-  e.lost = of.lost(start, surface_of(start), form.parameters);
-
-  textures.normals = normals_of(path);
-  if (target == ExportTarget::gltf) {
-    files = {gltf_file_of(e, textures, stack)};
-    return e;
-  }
-  files.resize(1);
-  for (const auto& [name, image] : {std::pair{"color", &textures.base},
-                                    {"roughness_metal", &textures.rough},
-                                    {"highlight", &textures.tint},
-                                    {"normal", &textures.normals}}) {
-    if (image->pixels.empty()) continue;
-    e.textures.push_back(fmt::format("{}_{}_{}.png", std::filesystem::path(output).stem().string(),
-                                     name_of(target), name));
-    files.push_back(png_bytes(*image));
-  }
-  files[0] = target == ExportTarget::usd_preview ? usd_preview_file_of(e, stack)
-                                                 : open_pbr_file_of(e, stack);
+  e.lost = target_map->lost(start);
+  files = target_map->files(e, normals_of(path), stack, output);
   return e;
 }
 

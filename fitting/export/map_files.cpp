@@ -13,14 +13,18 @@
 #include <nlohmann/json.hpp>
 
 namespace gonio {
-namespace {
 
-/// Half of the sides of a plane that has an image's shape and fits into a square of 2.
 std::array<float, 2> half_sides(std::size_t width, std::size_t height) {
   const auto largest = static_cast<double>(std::max(width, height));
   return {static_cast<float>(static_cast<double>(width) / largest),
           static_cast<float>(static_cast<double>(height) / largest)};
 }
+
+std::string document_of(const MapExport& e, const std::string& stack) {
+  return text_of(Json{{"schema", "gonio.map_export/1"}, {"model", e.model}, {"stack", stack}});
+}
+
+namespace {
 
 /// A plane of the image's shape in the xy plane, its texture's top at the top.
 void add_plane(Json& all, std::size_t width, std::size_t height) {
@@ -70,11 +74,6 @@ void add_plane(Json& all, std::size_t width, std::size_t height) {
   all["buffers"] =
       Json::array({{{"byteLength", bytes.size()},
                     {"uri", "data:application/octet-stream;base64," + base64(bytes)}}});
-}
-
-/// The map as a document in words that files of other formats keep.
-std::string document_of(const MapExport& e, const std::string& stack) {
-  return text_of(Json{{"schema", "gonio.map_export/1"}, {"model", e.model}, {"stack", stack}});
 }
 
 }  // namespace

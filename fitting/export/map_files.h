@@ -2,8 +2,9 @@
 /// \file
 /// Files of a map's export: the material of each target with its textures.
 
+#include <array>
+#include <cstddef>
 #include <string>
-#include <vector>
 
 #include "fitting/export/map_export.h"
 #include "image/png.h"
@@ -15,6 +16,11 @@ namespace gonio {
 struct MapTextures {
   PngImage base, rough, tint, normals;
 };
+
+/// Half of the sides of a plane that has an image's shape and fits into a square of 2.
+std::array<float, 2> half_sides(std::size_t width, std::size_t height);
+/// What the textures were made of, as a document that files of other formats keep.
+std::string document_of(const MapExport&, const std::string& stack);
 
 /// \param stack  name of the map's stack, which stands in the file
 std::string gltf_file_of(const MapExport&, const MapTextures&, const std::string& stack);

@@ -23,6 +23,7 @@
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
 #include "brdf/model/evaluate.h"
+#include "fitting/export/mitsuba_parts.h"
 #include "fitting/export/target.h"
 #include "fitting/export/xml.h"
 #include "optics/spectrum.h"
@@ -31,17 +32,6 @@
 
 namespace gonio {
 namespace {
-
-/// Names of the catalogue for Mitsuba's.
-std::string catalogue_name(const std::string& name) {
-  auto p = parse_parameter(name);
-  for (const auto& [ours, theirs] : {std::pair("kd", "reflectance"),
-                                     {"alpha_x", "alpha_u"},
-                                     {"alpha_y", "alpha_v"},
-                                     {"weight", "specular_reflectance"}})
-    if (p.name == theirs) p.name = ours;
-  return to_text(p);
-}
 
 constexpr std::array band_edges{485.0, 590.0};
 constexpr double edge_width = 5;
@@ -90,36 +80,30 @@ bool is_index(const std::string& name) {
 }
 
 std::vector<TargetForm> mitsuba_forms(const Surface& s) {
-  ModelSpec spec;
   TargetForm form;
   auto& p = form.parameters;
   const bool diffuse = s.largest_kd() > 0 || s.lobes.empty();
-  if (diffuse) {
-    spec.diffuse = "lambert";
-    p.push_back({"reflectance", s.kd});
-  }
+  if (diffuse) p.push_back({"reflectance", s.kd});
+  std::vector<bool> anisotropic;
   for (std::size_t l = 0; l < s.lobes.size(); ++l) {
     const auto& lobe = s.lobes[l];
-    const bool anisotropic = lobe.alpha_x != lobe.alpha_y;
-    const std::string kind = anisotropic ? "ggx_aniso" : "ggx";
-    spec.lobes.push_back({kind, "smith_" + kind + ".separable", "conductor.weighted"});
-    const Range width{1e-4, 1};
-    if (anisotropic) {
-      p.push_back({to_text({"alpha_u", l}), {lobe.alpha_x}, width});
-      p.push_back({to_text({"alpha_v", l}), {lobe.alpha_y}, width});
+    anisotropic.push_back(lobe.alpha_x != lobe.alpha_y);
+    if (anisotropic.back()) {
+      p.push_back({to_text({"alpha_u", l}), {lobe.alpha_x}, mitsuba_widths});
+      p.push_back({to_text({"alpha_v", l}), {lobe.alpha_y}, mitsuba_widths});
     } else {
-      p.push_back({to_text({"alpha", l}), {lobe.alpha_x}, width});
+      p.push_back({to_text({"alpha", l}), {lobe.alpha_x}, mitsuba_widths});
     }
-    p.push_back({to_text({"eta", l}), lobe.eta, {0.001, 20}});
-    p.push_back({to_text({"k", l}), lobe.k, {0, 100}, lobe.is_metal()});
+    p.push_back({to_text({"eta", l}), lobe.eta, mitsuba_indices});
+    p.push_back({to_text({"k", l}), lobe.k, mitsuba_extinctions, lobe.is_metal()});
     // Of a metal the index says how much it reflects; of a dielectric it says the angles, too.
     p.push_back({to_text({"specular_reflectance", l}), {lobe.weight}, {0, 1}, !lobe.is_metal()});
   }
-  const auto evaluated = [spec, tangent = s.tangent_deg, channels = s.channels](
-                             const TargetParameters& now,
-                             std::span<const FrameAngles<double>> angles) {
+  const auto evaluated = [spec = mitsuba_model(diffuse, anisotropic), tangent = s.tangent_deg,
+                          channels = s.channels](const TargetParameters& now,
+                                                 std::span<const FrameAngles<double>> angles) {
     std::vector<Setting> settings;
-    for (const auto& x : now) settings.push_back({catalogue_name(x.name), x.values});
+    for (const auto& x : now) settings.push_back({mitsuba_in_catalogue(x.name), x.values});
     if (compose(spec, 1).anisotropic) settings.push_back({"tangent", {tangent}});
     return evaluate(bind_model(spec, std::move(settings), channels), angles);
   };
@@ -218,8 +202,8 @@ std::string mitsuba_file(const Export& e, const std::string& fit) {
   std::size_t lobes = 0;
   while (find(to_text({"eta", lobes}))) ++lobes;
   double diffuse_share = reflectance ? 1 : 0;
-  if (reflectance && lobes > 0)  // as small as leaves kd/share within 1
-    diffuse_share = std::clamp(*std::ranges::max_element(*reflectance), 0.5, 0.99);
+  if (reflectance && lobes > 0)
+    diffuse_share = mitsuba_diffuse_share(*std::ranges::max_element(*reflectance));
   std::vector<std::pair<double, std::string>> parts;
   if (reflectance)
     parts.emplace_back(diffuse_share, "<bsdf type=\"diffuse\">\n" +
@@ -237,6 +221,38 @@ std::string mitsuba_file(const Export& e, const std::string& fit) {
                        xml_numbers({(*find(to_text({"specular_reflectance", l})))[0] / share}));
     parts.emplace_back(share, std::move(one));
   }
+  std::string all = mitsuba_blend(std::move(parts));
+  all.insert(5, " version=\"3.0.0\" id=\"fit\"");  // of the outermost
+  return xml_file(all, exported_fit, fit);
+}
+
+}  // namespace
+
+ModelSpec mitsuba_model(bool diffuse, const std::vector<bool>& anisotropic) {
+  ModelSpec spec;
+  if (diffuse) spec.diffuse = "lambert";
+  for (const bool is_anisotropic : anisotropic) {
+    const std::string kind = is_anisotropic ? "ggx_aniso" : "ggx";
+    spec.lobes.push_back({kind, "smith_" + kind + ".separable", "conductor.weighted"});
+  }
+  return spec;
+}
+
+std::string mitsuba_in_catalogue(const std::string& name) {
+  auto p = parse_parameter(name);
+  for (const auto& [ours, theirs] : {std::pair("kd", "reflectance"),
+                                     {"alpha_x", "alpha_u"},
+                                     {"alpha_y", "alpha_v"},
+                                     {"weight", "specular_reflectance"}})
+    if (p.name == theirs) p.name = ours;
+  return to_text(p);
+}
+
+double mitsuba_diffuse_share(double largest_kd) {
+  return std::clamp(largest_kd, 0.5, 0.99);
+}
+
+std::string mitsuba_blend(std::vector<std::pair<double, std::string>> parts) {
   auto [left, all] = parts.back();
   for (std::size_t i = parts.size() - 1; i-- > 0;) {
     const auto& [share, one] = parts[i];
@@ -245,11 +261,8 @@ std::string mitsuba_file(const Export& e, const std::string& fit) {
         xml_numbers({left / (left + share)}), one, all);
     left += share;
   }
-  all.insert(5, " version=\"3.0.0\" id=\"fit\"");  // of the outermost
-  return xml_file(all, exported_fit, fit);
+  return all;
 }
-
-}  // namespace
 
 const Target mitsuba_target{"Mitsuba", mitsuba_forms, mitsuba_lost, mitsuba_file};
 

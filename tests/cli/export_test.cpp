@@ -136,8 +136,8 @@ TEST(ExportCommand, WritesAMapAsTexturesThatShowItsFits) {
     EXPECT_EQ(normal[2], 255);
   }
   expect_one_line(gonio(f, "inspect maps.exr"), 3, "a map of 6 × 4 fits");
-  expect_one_line(gonio(f, "export maps.exr --to mitsuba -o m.xml"), 2,
-                  "gltf, open_pbr and usd_preview");
+  expect_one_line(gonio(f, "export maps.exr --to standard_surface -o m.mtlx"), 2,
+                  "gltf, mitsuba, open_pbr and usd_preview");
   expect_one_line(gonio(f, "export s/image_000.exr --to gltf -o m2.gltf"), 3, "image_000.exr");
   EXPECT_FALSE(std::filesystem::exists(f / "m2.gltf"));
 }
@@ -192,6 +192,51 @@ TEST(ExportCommand, WritesAMapWithTexturesBesideItForOpenPbrAndUsd) {
   expect_one_line(gonio(f, "export v_usd_preview_color.png --to usd_preview -o v.usda"), 2,
                   "v_usd_preview_color.png");
   EXPECT_EQ(read_bytes(f / "v_usd_preview_color.png"), bytes);
+}
+
+TEST(ExportCommand, WritesAMapForMitsubaInTexturesOfFloats) {
+  const Folder f;
+  Image map{3, 2, {"f0", "kd.R", "kd.G", "kd.B", "alpha"}, {}, {}};
+  map.planes = {{0.04F, 0.05F, 0.04F, 0.04F, 0.04F, 0.9F},
+                {0.6F, 0.4F, 0.3F, 0.2F, 0.1F, 0},
+                {0.2F, 0.2F, 0.2F, 0.2F, 0.2F, 0},
+                {0.1F, 0.1F, 0.1F, 0.1F, 0.1F, 0},
+                {0.25F, 0.16F, 0.16F, 0.16F, 0.16F, 0.09F}};
+  map.attributes = {{"gonio:schema", "gonio.map/1"},
+                    {"gonio:model", "lambert+ggx/smith_ggx.separable/schlick"},
+                    {"gonio:stack", "none"},
+                    {"gonio:channels", "R,G,B"}};
+  const auto exported = [&] {
+    write_exr(f / "maps.exr", map);
+    const auto o = gonio(f, "export maps.exr --to mitsuba -o m.xml --json");
+    EXPECT_EQ(o.code, 0) << o.err;
+    return o.json();
+  };
+  const auto said = exported();
+  EXPECT_EQ(said["textures"], nlohmann::json({"m_mitsuba_reflectance.exr", "m_mitsuba_alpha.exr",
+                                              "m_mitsuba_eta.exr", "m_mitsuba_k.exr"}));
+  EXPECT_LT(said["median_residual"], 0.1) << "Mitsuba's Fresnel is exact";
+  EXPECT_EQ(said["metals"], 1);
+  EXPECT_EQ(read_exr(f / "m_mitsuba_alpha.exr").planes[0][0], 0.25F) << "alpha, not its root";
+  const auto eta = read_exr(f / "m_mitsuba_eta.exr");
+  ASSERT_EQ(eta.channels.size(), 1U) << "F0 is grey";
+  EXPECT_NEAR(eta.planes[0][0], 1.5F, 1e-5F);
+  EXPECT_NEAR(read_exr(f / "m_mitsuba_k.exr").planes[0][0], 0.0F, 1e-6F);
+  EXPECT_GT(read_exr(f / "m_mitsuba_k.exr").planes[0][5], 0.5F) << "a metal's";
+  const auto kd = read_exr(f / "m_mitsuba_reflectance.exr", 100, {"R", "G", "B"});
+  EXPECT_NEAR(kd.planes[0][1] / kd.planes[0][0], 0.4F / 0.6F, 1e-6F);
+  for (const auto& line : said["lost"])
+    EXPECT_EQ(line.get<std::string>().find("Spectral"), std::string::npos) << line;
+  map.planes[0] = {0.04F, 0.05F, 0.04F, 0.04F, 0.04F, 0.04F};
+  map.planes[4].assign(6, 0.25F);
+  EXPECT_EQ(exported()["textures"].size(), 2U) << "one alpha, and no k";
+  map.channels[0] = "f0.R";
+  for (const char* other : {"f0.G", "f0.B"}) {
+    map.channels.emplace_back(other);
+    map.planes.emplace_back(6, 0.06F);
+  }
+  const std::string lost = exported()["lost"].dump();
+  EXPECT_NE(lost.find("Spectral variants: they refuse"), std::string::npos) << lost;
 }
 
 TEST(ExportCommand, FillsInWhatTexelsOfAMapDoNotKnowAndLetsNoneSetAllOthersHighlight) {

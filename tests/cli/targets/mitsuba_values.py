@@ -1,5 +1,6 @@
-"""f of a Mitsuba material [1/sr] at the direction pairs of a file: mitsuba_values.py MATERIAL.xml DIRECTIONS.txt [VARIANT]
+"""f of a Mitsuba material [1/sr] at the direction pairs of a file: mitsuba_values.py MATERIAL.xml DIRECTIONS.txt [VARIANT [X Y]]
 
+With X and Y the file is a scene, and the material that of the surface below that place.
 A line of DIRECTIONS is wi and wo, x y z each; a line of the answer is r g b.  Of spectral variants f by wavelength becomes linear sRGB under
 D65, white being 1, 1, 1."""
 import sys
@@ -8,11 +9,16 @@ import mitsuba as mi
 import numpy as np
 
 mi.set_variant(sys.argv[3] if len(sys.argv) > 3 else "scalar_rgb")
-bsdf = mi.load_file(sys.argv[1])
+loaded = mi.load_file(sys.argv[1])
 context = mi.BSDFContext()
-at = mi.SurfaceInteraction3f()
-at.n = [0, 0, 1]
-at.sh_frame = mi.Frame3f([0, 0, 1])
+if len(sys.argv) > 4:
+    at = loaded.ray_intersect(mi.Ray3f([float(sys.argv[4]), float(sys.argv[5]), 1], [0, 0, -1]))
+    bsdf = at.bsdf()
+else:
+    bsdf = loaded
+    at = mi.SurfaceInteraction3f()
+    at.n = [0, 0, 1]
+    at.sh_frame = mi.Frame3f([0, 0, 1])
 spectral = "spectral" in mi.variant()
 if spectral:
     nm = np.linspace(362, 828, 120).reshape(-1, 4)
