@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <numeric>
 #include <string_view>
@@ -190,31 +191,43 @@ OtherArrangement other_arrangement(const TexelSample& s, TexelOptions asked, Tex
 
 OtherArrangement arrangement_of_normals(const TexelSample& s,
                                         const TexelFit& refined,
-                                        const std::string& example) {
+                                        const LampsOfList& lamps) {
   OtherArrangement found;
   const auto seen = turns_of_normals(s, refined.normal);
   if (std::ranges::all_of(seen, [](auto& t) { return t.verdict == AzimuthVerdict::excluded; }))
     found.azimuth = AzimuthCheck::half_turn_open;
-  for (const auto& t : seen) {
-    if (t.verdict != AzimuthVerdict::right || t.ratio >= found.ratio) continue;
-    const auto &one = turns[t.turn], &other = turns[t.turn + 1];
-    const auto side = [](const Turn& of) {  // of a lamp that is said to stand on the right
-      return of.to[0] > 0 ? "right" : of.to[0] < 0 ? "left" : of.to[2] > 0 ? "upper" : "lower";
-    };
-    const auto answer = [&](const Turn& of) {
-      return fmt::format("the {} side: phi_i becomes {}, a vector's (x, y) {}", side(of),
-                         of.azimuth, of.vector);
-    };
-    found.what = fmt::format("the light's azimuth is {}; or it is {}", one.what, other.what);
-    found.cure = {
-        fmt::format("look at {} first: which side of a bump is bright? (the list has that "
-                    "lamp on the right)",
-                    example),
-        answer(one), answer(other)};
-    found.measure = "curl of the refined normals";
-    found.ratio = t.ratio;
-    found.sure = true;
+  std::vector<TurnOfNormals> right;
+  std::ranges::copy_if(seen, std::back_inserter(right),
+                       [](auto& t) { return t.verdict == AzimuthVerdict::right; });
+  if (right.empty()) return found;
+  // Where a lamp of the list stands.
+  const auto side = [](int x, int y) {
+    return x > 0 ? "right" : x < 0 ? "left" : y > 0 ? "upper" : "lower";
+  };
+  const bool of_one_pair = right.size() == 1;
+  found.cure = {
+      of_one_pair
+          ? fmt::format("look at {} first: which side of a bump is bright? (the list has that "
+                        "lamp on the right)",
+                        lamps.right)
+          : fmt::format("look at {} and then at {}: which side of a bump is bright in each? (the "
+                        "list has the one lamp on the right, and the other on top)",
+                        lamps.right, lamps.top)};
+  for (const auto& t : right) {
+    found.ratio = std::min(found.ratio, t.ratio);
+    for (const auto& turn : {turns[t.turn], turns[t.turn + 1]}) {
+      found.what += fmt::format(
+          "{}{}", found.what.empty() ? "the light's azimuth is " : "; or it is ", turn.what);
+      const std::string sides =
+          of_one_pair ? fmt::format("the {} side", side(turn.to[0], turn.to[2]))
+                      : fmt::format("the {} side, and then the {} one",
+                                    side(turn.to[0], turn.to[2]), side(turn.to[1], turn.to[3]));
+      found.cure.push_back(fmt::format("{}: phi_i becomes {}, a vector's (x, y) {}", sides,
+                                       turn.azimuth, turn.vector));
+    }
   }
+  found.measure = "curl of the refined normals";
+  found.sure = true;
   return found;
 }
 

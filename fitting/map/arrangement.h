@@ -42,12 +42,16 @@ struct OtherArrangement {
 /// \param better  the model that fits the given arrangement best
 OtherArrangement other_arrangement(const TexelSample&, TexelOptions asked, TexelOptions better);
 
-/// The azimuths under which refined normals belong to a surface, if they do not as given.  Of half a turn nothing is known: it makes hollows of bumps.
-/// \param sample   pieces of a map (turns_of_normals)
-/// \param example  name of the image whose lamp the stack has farthest to the right
+/// Names of the images whose lamps the stack has farthest to the right, and farthest on top.
+struct LampsOfList {
+  std::string right, top;
+};
+/// The azimuths under which refined normals belong to a surface, if they do not as given.  Of half a turn nothing is known: it makes hollows of bumps.  Nor does
+/// the curl of a dome, or of what is the same along x and along y, decide between mirror images and quarter turns: photographs do.
+/// \param sample  pieces of a map (turns_of_normals)
 OtherArrangement arrangement_of_normals(const TexelSample& sample,
                                         const TexelFit& refined,
-                                        const std::string& example);
+                                        const LampsOfList&);
 
 /// Why a stack is refused, in lines: what its directions are, and what to do.
 std::string refusal_of(const OtherArrangement&);

@@ -286,15 +286,21 @@ StackSurvey survey(const TexelSamples& s, const TexelOptions& o) {
 
 namespace {
 
-/// The image whose lamp stands farthest to the right.
-std::string lamp_on_the_right(const Stack& stack) {
-  const auto right = [](const StackImage& i) {
-    auto light = direction_of(i.light);
-    if (const auto* near = std::get_if<SidePosition<Side::light>>(&i.light))
-      light = direction(near->at);
-    return light ? light->x - std::abs(light->y) : -2;
+LampsOfList lamps_of(const Stack& stack) {
+  const auto farthest = [&](double right, double up) {
+    return std::ranges::max_element(
+               stack.images, {},
+               [&](const StackImage& i) {
+                 auto light = direction_of(i.light);
+                 if (const auto* near = std::get_if<SidePosition<Side::light>>(&i.light))
+                   light = direction(near->at);
+                 if (!light) return -2.0;
+                 return right * light->x + up * light->y -
+                        std::abs(right * light->y + up * light->x);
+               })
+        ->path;
   };
-  return std::ranges::max_element(stack.images, {}, right)->path;
+  return {farthest(1, 0), farthest(0, 1)};
 }
 
 }  // namespace
@@ -309,7 +315,7 @@ StackSurvey survey(const StackReader& stack, const TexelOptions& o) {
   if (!refined.refine_normals || found.arrangement.sure || found.texels < few_texels) return found;
   const TexelSample pieces = sample_in_pieces(stack);
   const auto other =
-      arrangement_of_normals(pieces, fit_sample(pieces, refined), lamp_on_the_right(stack.stack()));
+      arrangement_of_normals(pieces, fit_sample(pieces, refined), lamps_of(stack.stack()));
   if (other.sure)
     found.arrangement = other;
   else

@@ -266,15 +266,15 @@ Image without_normals() {
   return normals;
 }
 
-/// Photographs of waves, given without their normals.
-/// \param turn  of their phase from one texel to the next   \param steep  slope
-gonio::Stack waves(const Folder& f, float turn = 0.3F, float steep = 0.2F) {
+/// Photographs of a surface of these slopes, given without its normals.
+/// \param slopes  along x and along y, of a texel's column and row
+template <class Slopes>
+gonio::Stack photographs(const Folder& f, Slopes&& slopes) {
   Image normals = without_normals();
   for (std::size_t t = 0; t < map_width * map_height; ++t) {
-    const auto u = turn * static_cast<float>(t % map_width),
-               v = -turn / 1.5F * static_cast<float>(t / map_width);
-    const float p = steep * std::cos(u) * std::cos(v),
-                q = -steep * std::sin(u) * std::sin(v) * 0.7F, z = 1 / std::sqrt(1 + p * p + q * q);
+    const auto [p, q] =
+        slopes(static_cast<float>(t % map_width), static_cast<float>(t / map_width));
+    const float z = 1 / std::sqrt(1 + p * p + q * q);
     normals.planes[0].push_back(-p * z);
     normals.planes[1].push_back(-q * z);
     normals.planes[2].push_back(z);
@@ -283,6 +283,14 @@ gonio::Stack waves(const Folder& f, float turn = 0.3F, float steep = 0.2F) {
   auto stack = dome(f, 12, 5, 0.01, f / "n.exr");
   stack.normals.reset();
   return stack;
+}
+
+/// \param turn  of their phase from one texel to the next   \param steep  slope
+gonio::Stack waves(const Folder& f, float turn = 0.3F, float steep = 0.2F) {
+  return photographs(f, [=](float column, float row) {
+    const float u = turn * column, v = -turn / 1.5F * row;
+    return std::array{steep * std::cos(u) * std::cos(v), -steep * std::sin(u) * std::sin(v) * 0.7F};
+  });
 }
 
 TEST(Survey, AsksForNormalsWhereTheSurfaceIsNotFlat) {
@@ -318,6 +326,28 @@ TEST(Survey, SaysThatRefinedNormalsBelongToNoSurface) {
   }
   const auto turned = survey(StackReader(stack), o).arrangement;
   EXPECT_NE(turned.what.find("quarter turn"), turned.what.npos) << turned.what;
+}
+
+TEST(Survey, NamesTwoPhotographsWhereAQuarterTurnMayBeAMirrorImage) {
+  const Folder f;
+  auto stack = photographs(f, [](float column, float row) {  // a bowl
+    return std::array{0.02F * (column - 11), -0.02F * (row - 9)};
+  });
+  TexelOptions o;
+  o.refine_normals = true;
+  EXPECT_EQ(survey(StackReader(stack), o).arrangement.what, "");
+  for (auto& image : stack.images) {
+    auto& light = std::get<SideAngles<Side::light>>(image.light);
+    light.phi_deg = std::remainder(light.phi_deg + 90, 360);
+  }
+  const auto turned = survey(StackReader(stack), o).arrangement;
+  EXPECT_TRUE(turned.sure);
+  ASSERT_EQ(turned.cure.size(), 7U) << turned.what;
+  EXPECT_NE(turned.cure[0].find("and then at image_"), std::string::npos) << turned.cure[0];
+  // What the list has on the right stands below, and what it has on top on the right.
+  EXPECT_TRUE(std::ranges::any_of(turned.cure, [](const std::string& line) {
+    return line.starts_with("the lower side, and then the right one: phi_i becomes φ − 90°");
+  }));
 }
 
 TEST(Survey, SaysSoOfGentleBumpsAndWhereNormalsAreNotAskedForToo) {
