@@ -334,21 +334,27 @@ void variances(const TexelUnknowns& u,
                const UnknownOf& of,
                const float* const* sums,
                const float* inverse,
-               float* variance) {
+               float* variance,
+               float* freedom) {
   const std::size_t n = u.count;
-  const Rows out(variance);
+  const Rows out(variance), of_parts(freedom);
   const auto b = [&](std::size_t i, std::size_t j) {
     return load<B>(inverse + (i * n + j) * padding);
   };
   const B zero(0);
   for (std::size_t i = 0; i < n; ++i) {
     B sum = zero, alone = zero;
+    std::array<B, 2> parts{zero, zero};
     for (std::size_t c = 0; c < of.size(); ++c) {
       const std::size_t k = of[c].size();
       const auto at = [&](std::size_t e) { return load<B>(sums[c] + e * padding); };
       std::size_t e = k + 1;
       for (std::size_t p = 0; p < k; ++p) {
-        if (of[c][p] == i) alone = alone + at(1 + p);
+        if (of[c][p] == i) {
+          alone = alone + at(1 + p);
+          for (std::size_t power = 0; power < 2; ++power)
+            parts[power] = parts[power] + at((k + 1) * (k + 2) / 2 + power * k + p);
+        }
         for (std::size_t q = p; q < k; ++q, ++e) {
           if (of[c][p] == n || of[c][q] == n) continue;
           const B part = b(i, of[c][p]) * at(e) * b(i, of[c][q]);
@@ -360,6 +366,7 @@ void variances(const TexelUnknowns& u,
         0.01L;  // of the variance from values that alone determine something
     const auto unknown = constant<B>(some) * b(i, i) < alone;
     out.put(i, select<B>(unknown, constant<B>(std::numeric_limits<float>::quiet_NaN()), sum));
+    of_parts.put(i, B(3) * (parts[0] / parts[1] * parts[0]) - B(2));
   }
 }
 

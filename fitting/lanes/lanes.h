@@ -37,7 +37,8 @@ struct FusedTexels {
   /// Without derivatives by the parameters of D and V, differences alone.
   std::array<TexelPass, 2> linear;
   /// Sums of the sandwich: of values with leverage h = jᵀ B⁻¹ j those of [r, s]ᵀ[r, s], s = r j/(1 − h), upper triangle row by row;
-  /// but beside Σ r² stand Σ (B⁻¹ j)² over values that alone determine something, h near 1.
+  /// but beside Σ r² stand Σ (B⁻¹ j)² over values that alone determine something, h near 1.  Below them Σ v of each derivative, v = (B⁻¹ s)² being what a value
+  /// adds to the variance, and then Σ v².
   std::array<std::array<TexelPass, 2>, 2> worth;
 };
 
@@ -117,12 +118,14 @@ struct LaneKernels {
   /// \param left_out  [unknown][padding]: 1 at a bound, 2 where nothing depends on it, 3 where others may make up for it
   /// \param judged  whether it is known which are left out; else that is found
   void (*invert)(const TexelUnknowns&, TexelState&, bool judged, float* left_out, float* inverse);
-  /// Variances.  \param inverse  [unknown][unknown][padding]
+  /// Variances, and how many values of equal parts they are made of.  \param inverse  [unknown][unknown][padding]
+  /// \param freedom  3 (Σ v)²/Σ v² − 2, v = c χ²₁ of each value: unbiased but for the ratio; [unknown][padding]
   void (*variances)(const TexelUnknowns&,
                     const UnknownOf&,
                     const float* const* sums,
                     const float* inverse,
-                    float* variance);
+                    float* variance,
+                    float* freedom);
 };
 
 /// Kernels of the set that brdf's kernels are taken from.

@@ -17,7 +17,11 @@ class WorthSums {
       : WorthSums(a.inverse[channel], a.sums[channel]) {}
   WorthSums(const F* inverse, const F* sums) : products_(sums) {
     for (std::size_t e = 0; e < inverse_.size(); ++e) inverse_[e] = load<B>(inverse + e * padding);
-    for (std::size_t k = 0; k + 1 < K; ++k) alone_[k] = load<B>(sums + (1 + k) * padding);
+    for (std::size_t k = 0; k + 1 < K; ++k) {
+      alone_[k] = load<B>(sums + (1 + k) * padding);
+      for (std::size_t power = 0; power < 2; ++power)
+        parts_[power][k] = load<B>(sums + of_parts(power, k) * padding);
+    }
   }
 
   /// \param column  r and its derivatives
@@ -36,13 +40,20 @@ class WorthSums {
     for (std::size_t k = 1; k < K; ++k) {
       alone_[k - 1] = alone_[k - 1] + select<B>(alone, b[k] * b[k], B(0));
       column[k] = factor * column[k];
+      const B part = b[k] * factor * (b[k] * factor);
+      parts_[0][k - 1] = parts_[0][k - 1] + part;
+      parts_[1][k - 1] = parts_[1][k - 1] + part * part;
     }
     products_.add(column);
   }
   void store(const TexelArguments& a, std::size_t channel) const { store_to(a.sums[channel]); }
   void store_to(F* sums) const {
     products_.store_to(sums);
-    for (std::size_t k = 0; k + 1 < K; ++k) gonio::store<B>(sums + (1 + k) * padding, alone_[k]);
+    for (std::size_t k = 0; k + 1 < K; ++k) {
+      gonio::store<B>(sums + (1 + k) * padding, alone_[k]);
+      for (std::size_t power = 0; power < 2; ++power)
+        gonio::store<B>(sums + of_parts(power, k) * padding, parts_[power][k]);
+    }
   }
 
  private:
@@ -50,9 +61,13 @@ class WorthSums {
     const std::size_t row = (k > l ? k : l) - 1, column = (k > l ? l : k) - 1;
     return row * (row + 1) / 2 + column;
   }
+  static constexpr std::size_t of_parts(std::size_t power, std::size_t k) {
+    return K * (K + 1) / 2 + power * (K - 1) + k;
+  }
   Products<F, K> products_;
   std::array<B, K*(K - 1) / 2> inverse_;
   std::array<B, K - 1> alone_;
+  std::array<std::array<B, K - 1>, 2> parts_;
 };
 
 }  // namespace gonio::inline GONIO_ARCH

@@ -8,7 +8,11 @@
 namespace gonio {
 namespace {
 
-constexpr std::size_t most_entries = max_columns * (max_columns + 1) / 2;
+/// Of k derivatives beside the residual: their products, and what `worth` has below them.
+constexpr std::size_t entries_of(std::size_t k) {
+  return (k + 1) * (k + 2) / 2 + 2 * k;
+}
+constexpr std::size_t most_entries = entries_of(max_columns - 1);
 
 std::size_t slot_of(const Model& m, const TermUse& t, std::size_t parameter, std::size_t channel) {
   if (parameter == t.parameters.size()) return m.tangent()->first;
@@ -87,10 +91,8 @@ TexelPasses::TexelPasses(const TexelTask& task, const Kernels<float>& k, const L
 }
 
 void TexelPasses::clear(const UnknownOf& of) {
-  for (std::size_t c = 0; c < of.size(); ++c) {
-    const std::size_t k = of[c].size() + 1;
-    std::fill_n(sums_[c], k * (k + 1) / 2 * padding, 0.0F);
-  }
+  for (std::size_t c = 0; c < of.size(); ++c)
+    std::fill_n(sums_[c], entries_of(of[c].size()) * padding, 0.0F);
 }
 
 void TexelPasses::run(TexelPass pass, const LaneSamples& s, const float* values, Link link) {

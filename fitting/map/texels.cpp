@@ -23,6 +23,8 @@ constexpr int first_steps = 8, most_steps = 150;
 /// Steps from each of several starts, after which the lowest goes on.
 constexpr int steps_of_each = 16;
 
+constexpr double normal_quantile = 1.959963984540054;  // of 0.975
+
 /// Texel on its way, between two rounds.
 struct Waiting {
   std::size_t texel;
@@ -66,10 +68,9 @@ class LaneFit {
   bool has_middles_ = false;
 
   // The register on its way.
-  Column<float> values_, memory_, inverse_, own_inverse_, left_out_, variance_;
+  Column<float> values_, memory_, inverse_, own_inverse_, left_out_, variance_, freedom_;
   TexelState state_{};
   std::vector<Waiting> waiting_;
-  std::vector<double> t_;  ///< 97.5 % quantile of Student's t by degrees of freedom
 };
 
 LaneFit::LaneFit(const TexelTask& task,
@@ -112,10 +113,7 @@ LaneFit::LaneFit(const TexelTask& task,
   own_inverse_ = Column<float>(max_channels * max_columns * (max_columns + 1) / 2 * padding);
   left_out_ = Column<float>(unknowns * padding);
   variance_ = Column<float>(unknowns * padding);
-
-  t_.push_back(std::numeric_limits<double>::infinity());
-  for (std::size_t nu = 1; nu <= in.images * in.channels; ++nu)
-    t_.push_back(nu < 400 ? students_t_quantile(0.975, static_cast<double>(nu)) : t_.back());
+  freedom_ = Column<float>(unknowns * padding);
 }
 
 /// Values of the model's parameters, and angles where the unknowns move them.
@@ -321,7 +319,8 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
           std::fill_n(to, padding, 0.0F);
   }
   passes_.worth(register_.samples(), values_.data(), own);
-  lanes_.variances(u, passes_.unknowns(), passes_.sums(), inverse_.data(), variance_.data());
+  lanes_.variances(u, passes_.unknowns(), passes_.sums(), inverse_.data(), variance_.data(),
+                   freedom_.data());
 
   for (std::size_t l = 0; l < texels.size(); ++l) {
     if (state_.done[l] == 0) continue;  // waits
@@ -363,14 +362,20 @@ void LaneFit::finish(std::span<const std::size_t> texels) {
                    : left == 1                                 ? ParameterStatus::at_bound
                                                                : ParameterStatus::free;
           if (status == ParameterStatus::free && values > taken) {
-            const double half = t_[values - taken] * double{error};
+            // Of no noise at all there are no parts: fmin.
+            const auto most_freedom = static_cast<float>(values - taken);
+            const float freedom =
+                std::fmax(std::fmin(freedom_[i * padding + l], most_freedom), 1.0F);
+            const double spread = double{error} * spread_of(double{freedom});
             // A tangent is the same half a turn further.
             const double range = double{u.high[i]} - double{u.low[i]},
                          most = s == tangent ? std::min(range, 180.0) : range;
-            if (fills(half, most))
+            if (fills(normal_quantile * spread, most)) {
               status = ParameterStatus::not_identifiable;
-            else
-              to.std_error[t] = error;
+            } else {
+              to.std_error[t] = static_cast<float>(spread);
+              to.freedom[t] = freedom;
+            }
           }
           if (status == ParameterStatus::not_identifiable) to.value[t] = nan;
         }
@@ -453,6 +458,22 @@ void check_sizes(const TexelSamples& s) {
 
 }  // namespace
 
+double spread_of(double freedom) {
+  constexpr std::size_t steps = 256;  // of 1/freedom, between which it is a line
+  static const auto table = [] {
+    std::array<float, steps + 1> all{1};  // floats, which no library's last digits change
+    for (std::size_t k = 1; k <= steps; ++k)
+      all[k] = static_cast<float>(
+          students_t_quantile(0.975, static_cast<double>(steps) / static_cast<double>(k)) /
+          normal_quantile);
+    return all;
+  }();
+  const double at = static_cast<double>(steps) / freedom;
+  const auto below = std::min(static_cast<std::size_t>(at), steps - 1);
+  const double low = double{table[below]}, high = double{table[below + 1]};
+  return low + (at - static_cast<double>(below)) * (high - low);
+}
+
 void check(const TexelOptions& o, std::size_t channels) {
   const TexelTask task(o, channels);
 }
@@ -467,6 +488,7 @@ TexelFit fit_texels(const TexelSamples& s,
     for (std::size_t c = 0; c < q.count; ++c)
       fit.columns.push_back({q.name, q.count > 1 ? static_cast<int>(c) : -1,
                              std::vector<float>(s.texels, nan), std::vector<float>(s.texels, nan),
+                             std::vector<float>(s.texels, nan),
                              std::vector<std::uint8_t>(s.texels)});
   for (auto* column : {&fit.rms, &fit.signal, &fit.misfit}) column->assign(s.texels, nan);
   for (auto* column : {&fit.count, &fit.freedom}) column->assign(s.texels, 0);

@@ -61,6 +61,9 @@ inline constexpr auto description<TexelOptions> =
 /// Tiles of other options are told by these: none may be forgotten.
 static_assert(describes_every_member<TexelOptions>());
 
+/// 97.5 % quantile of Student's t over the normal distribution's.  \param freedom  from 1 on
+double spread_of(double freedom);
+
 /// End of a texel's fit.
 enum class TexelOutcome : std::uint8_t {
   converged,
@@ -77,9 +80,11 @@ struct TexelColumn {
   std::string parameter;
   int channel = -1;          ///< −1: one value for all channels
   std::vector<float> value;  ///< NaN where the status is not_identifiable, or there are no data
-  /// Of the sandwich B⁻¹ M B⁻¹, which holds whether or not the metric whitens the noise, as a fit with independent
-  /// intervals has it; NaN where the status is not free.
+  /// Of the sandwich B⁻¹ M B⁻¹, which holds whether or not the metric whitens the noise, as a fit with independent intervals has it; times
+  /// spread_of(freedom), so that ± 1.96 of it hold the truth in 95 % of texels.  NaN where the status is not free.
   std::vector<float> std_error;
+  /// Degrees of freedom of that: where few values decide, their residuals are small by chance, too [Satterthwaite 1946].
+  std::vector<float> freedom;
   std::vector<std::uint8_t> status;  ///< ParameterStatus: free, fixed, at_bound or not_identifiable
 };
 
