@@ -41,18 +41,22 @@ bool is_whole(const std::optional<FoundAt>& highlight) {
   return highlight && std::abs(highlight->value - 1) < most_off;
 }
 
-void audit_whole(FunctionAudit& a, const std::string& token, std::size_t term) {
+/// \return  false where it is ours only without the π that was guessed
+bool audit_whole(FunctionAudit& a, const std::string& token, std::size_t term) {
   const auto parameters = known_parameters(term);
   const auto& f = *a.of.function;
   const bool guessed_pi = f.guessed && f.includes.find("pi") != std::string::npos;
   a.model = nearest_model(term, a.no_model);
+  if (a.model && guessed_pi && is_without_pi(*a.model)) return false;
   if (a.model) {
     const auto& width = parameters[a.model->width];
     a.width_of_model = width.name;
     add(a.to_check, to_check(*a.model, width));
   }
+  if (!a.model) a.of_the_kind = model_of_the_kind(term);
+  const bool of_sheen = a.model ? is_sheen(*a.model) : a.of_the_kind->is_sheen;
   const OwnAlbedo albedo(token, parameters, f.programs.size(), f.anisotropic);
-  const auto parts = audit_parts(term, albedo, a.model, guessed_pi);
+  const auto parts = audit_parts(term, albedo, a.model, of_sheen, guessed_pi);
   a.highlight = parts.highlight;
   if (a.model) {
     auto of_model = *a.model;
@@ -62,6 +66,7 @@ void audit_whole(FunctionAudit& a, const std::string& token, std::size_t term) {
   add(a.slips, parts.slips);
   add(a.to_check, parts.to_check);
   a.energy = energy_of(albedo);
+  return true;
 }
 
 /// A distribution without 1/π is right where its caller divides: it is asked of one whose name says so, and of one that functions
@@ -161,7 +166,13 @@ FunctionAudit audit_function(const FileFunction& of) {
     a.slips.emplace_back(
         "its name is that of a Fresnel term, whose cosine is VoH, and it takes NoH");
   }
-  if (role == Role::diffuse) audit_whole(a, token, term);
+  if (role == Role::diffuse && !audit_whole(a, token, term)) {
+    auto name = f.name;
+    name.reading.includes = f.includes == "pi" ? "nothing" : "cosine";
+    FileFunction again = of;
+    again.function = foreign::read_function(name);
+    return audit_function(again);
+  }
   // Light and view that graze from opposite sides leave no half vector: most shaders exclude it.
   constexpr Range cosines{0.05, 1};
   const auto known = known_parameters(term);
@@ -194,9 +205,11 @@ FunctionAudit audit_function(const FileFunction& of) {
       if (const auto slip = slip_of_norm(term, a.laws.normalisation->value); !slip.empty())
         a.slips.push_back(slip);
   }
-  if (role == Role::diffuse && !a.model && !(a.nearest && is_same(*a.nearest))) {
-    a.of_the_kind = model_of_the_kind(term);
-    a.nearest.reset();
+  if (a.of_the_kind) {
+    if (a.nearest && is_same(*a.nearest))
+      a.of_the_kind.reset();
+    else
+      a.nearest.reset();
   }
   for (const auto& p : f.parameters) {
     const auto role_of = std::ranges::find_if(

@@ -64,24 +64,26 @@ struct Side {
   std::function<Values(const Values&)> at;
 };
 
+/// Whether that name is a parameter's, or that of the colour whose channel it is.
+bool is_called(const Parameter& p, std::string_view name) {
+  return same_letters(p.name, name) || same_letters(stem_of(p.name), name);
+}
+
 /// What is said of a parameter.
 const Range* said_of(const Domain& domain, const Parameter& p) {
   const auto said =
-      std::ranges::find_if(domain, [&](const auto& d) { return same_letters(d.first, p.name); });
+      std::ranges::find_if(domain, [&](const auto& d) { return is_called(p, d.first); });
   return said == domain.end() ? nullptr : &said->second;
 }
 
 /// Values of one's own parameters at a place within their bounds or those of a domain.  Metals are left out where nothing is said of
 /// them, and two widths are not the same.
-Values own_values(const Side& own, const std::string& name, const Domain& domain, std::size_t k) {
+Values own_values(const Side& own, const Domain& domain, std::size_t k) {
   Values all;
   for (const auto& p : own.parameters) {
     Parameter at = p;
     const Range* const said = said_of(domain, p);
     if (said) at.legal = *said, at.start = said->low;
-    if (std::isnan(at.start))
-      throw wrong_usage(fmt::format("{} of {} has no bounds: give them by --domain {}=LOW,HIGH",
-                                    p.name, name, p.name));
     const bool is_left_out = is_metallic(p) && !said;
     const bool is_second = p.meaning.ends_with('y') || p.meaning.ends_with('b');
     all.push_back(is_left_out
@@ -89,6 +91,21 @@ Values own_values(const Side& own, const std::string& name, const Domain& domain
                       : values_between(at, compared_at)[is_second ? (2 * k + 3) % compared_at : k]);
   }
   return all;
+}
+
+/// Asks for the bounds of all parameters that have none, by names that --domain takes.
+void expect_bounds(const Side& own, const std::string& name, const Domain& domain) {
+  std::vector<std::string> missing;
+  for (const auto& p : own.parameters) {
+    const std::string stem(stem_of(p.name));
+    if (std::isnan(p.start) && !said_of(domain, p) &&
+        std::ranges::find(missing, stem) == missing.end())
+      missing.push_back(stem);
+  }
+  if (missing.empty()) return;
+  throw wrong_usage(fmt::format("{} of {} {} no bounds: give them by --domain {}=LOW,HIGH",
+                                fmt::join(missing, ", "), name, missing.size() > 1 ? "have" : "has",
+                                fmt::join(missing, "=LOW,HIGH ")));
 }
 
 /// Compares by each of the pairs, and takes those of the least difference.
@@ -100,14 +117,15 @@ void compare_sides(TermComparison& c,
                    const Domain& domain,
                    double (*difference)(double own, double other, double most)) {
   for (const auto& [name, range] : domain) {
-    const auto is_it = [&](const Parameter& q) { return same_letters(q.name, name); };
+    const auto is_it = [&](const Parameter& q) { return is_called(q, name); };
     if (std::ranges::none_of(own.parameters, is_it) &&
         std::ranges::none_of(other.parameters, is_it))
       throw wrong_usage(fmt::format("neither {} nor {} has a parameter '{}'", c.a, c.b, name));
   }
+  expect_bounds(own, c.a, domain);
   std::vector<Values> p, f;
   for (std::size_t k = 0; k < compared_at; ++k) {
-    p.push_back(own_values(own, c.a, domain, k));
+    p.push_back(own_values(own, domain, k));
     f.push_back(own.at(p.back()));
   }
   const auto only_own = [&](const Parameter& q) {
@@ -244,8 +262,11 @@ TermComparison compare_with_model(const std::string& own,
   }
   const Side ours{known_parameters(term),
                   [&](const Values& p) { return values_in(Number::double_, term, p, rows); }};
-  compare_sides(c, ours, theirs, rows, domain,
-                [](double f, double g, double) { return std::abs(f / g - 1); });
+  compare_sides(c, ours, theirs, rows, domain, [](double f, double g, double most) {
+    constexpr double nothing = 1e-12;  // two that are as good as 0 are the same
+    const bool is_nothing = std::max(std::abs(f), std::abs(g)) < nothing * most;
+    return is_nothing ? 0 : std::abs(f / g - 1);
+  });
   const auto& f = *foreign_term(term)->function;
   const bool in_one = model.model.lobes.empty();
   const std::size_t channels = in_one ? 1 : channels_of(f);

@@ -153,14 +153,10 @@ double unlikeness(const Values& f, const Values& g) {
 const Kind& kind_of(std::size_t term, std::span<const Parameter> own) {
   const auto colours = possible_colours(own);
   const auto& rows = auditing::rows_of(Role::diffuse);
-  std::vector<std::size_t> widths;
-  if (const auto named = width_of(own)) widths.push_back(*named);
-  for (std::size_t k = 0; k < own.size() && (widths.empty() || widths[0] != width_of(own)); ++k)
-    if (!is_colour(own[k]) && !is_metallic(own[k]) && !is_eta(own[k])) widths.push_back(k);
   std::array<double, kinds.size()> least;
   least.fill(1);
   constexpr std::size_t places = 3;
-  for (const auto k : widths) {
+  for (const auto k : possible_widths(own)) {
     std::vector<Values> white;
     const auto at = values_between(own[k], places);
     for (const double w : at) {
@@ -211,9 +207,11 @@ OfTheKind model_of_the_kind(std::size_t term) {
     const auto colours = possible_colours(parameters);
     const bool is_on_base = kind.is_sheen ? !colours.empty() && !colours[0].diffuse.empty()
                                           : has_diffuse(term, parameters);
-    return of(fmt::format("{}{}/{}/{}{}", is_on_base ? "lambert+" : "", kind.ndf, kind.masking,
-                          kind.fresnel,
-                          has_coat(parameters) ? "+coat:ggx/smith_ggx.correlated/schlick" : ""));
+    auto found = of(fmt::format(
+        "{}{}/{}/{}{}", is_on_base ? "lambert+" : "", kind.ndf, kind.masking, kind.fresnel,
+        has_coat(parameters) ? "+coat:ggx/smith_ggx.correlated/schlick" : ""));
+    found.is_sheen = kind.is_sheen;
+    return found;
   }
   Domain domain;
   for (const auto& p : parameters)

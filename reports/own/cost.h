@@ -24,6 +24,7 @@ struct OfTheKind {
   std::size_t operations = 0,
               own_operations =
                   0;  ///< of a diffuse term in one channel, otherwise in the function's
+  bool is_sheen = false;
 };
 OfTheKind model_of_the_kind(std::size_t foreign_term);
 /// True where turning the view around the normal changes the value as only a highlight does.

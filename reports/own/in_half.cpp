@@ -3,6 +3,7 @@
 #include "base/letters.h"
 #include "brdf/catalogue/registry.h"
 #include "reports/finding/words.h"
+#include "reports/own/parameters.h"
 #include "stability/answer.h"
 
 #include <fmt/format.h>
@@ -42,7 +43,8 @@ std::string in_half(stability::Subject subject, const Domain& domain, bool prove
   q.subject = std::move(subject);
   for (const auto& [name, range] : domain)
     for (const auto& i : q.subject.inputs)
-      if (same_letters(i.name, name)) stability::set_domain(q.subject, i.name, range);
+      if (same_letters(i.name, name) || same_letters(stem_of(i.name), name))
+        stability::set_domain(q.subject, i.name, range);
   constexpr double unbounded = 1e29;  // looked at where the laws are
   for (auto& i : q.subject.inputs)
     if (i.domain.high > unbounded) i.domain = {0.05, 1};

@@ -126,10 +126,16 @@ std::vector<std::string> without_effect(const foreign::Function& f,
   std::vector<std::string> names;
   for (std::size_t k = 0; k < parameters.size(); ++k)
     if (is_same_always([&](std::size_t c, Values p) {
+          // Both ends may have one value, as f0 (1 − f0) has, or one of them none.
           p[k] = low_of(parameters[k]);
           const auto low = values(c, p, rows);
-          p[k] = high_of(parameters[k]);
-          return differ(low, values(c, p, rows));
+          constexpr std::size_t places = 3;
+          auto at = values_between(parameters[k], places);
+          at.push_back(high_of(parameters[k]));
+          return std::ranges::any_of(at, [&](double v) {
+            p[k] = v;
+            return differ(low, values(c, p, rows));
+          });
         }))
       names.emplace_back(parameters[k].name);
   const auto changes = [&](double Row::*cosine) {

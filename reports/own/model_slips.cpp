@@ -9,6 +9,15 @@
 
 namespace gonio {
 
+bool is_without_pi(const NearestModel& n) {
+  const bool is_highlight = n.spec.starts_with(n.shape) && !n.lacks_diffuse;
+  return is_highlight && std::abs(n.factor * std::numbers::pi - 1) < same_within;
+}
+
+bool is_sheen(const NearestModel& n) {
+  return n.shape == "charlie";
+}
+
 std::string highlight_text(double factor, bool guessed_pi) {
   if (const double off = std::abs(factor * std::numbers::pi - 1); !guessed_pi || off > 0.02)
     return "its highlight is " + factor_text(factor);

@@ -63,7 +63,7 @@ double value_for(const Parameter& form, const Parameter& own, double v, double p
 
 constexpr double pi = std::numbers::pi;
 /// Factors that are slips often made.
-constexpr std::array<std::pair<double, const char*>, 10> usual_factors{
+constexpr std::array<std::pair<double, const char*>, 11> usual_factors{
     {{pi, "π times too large: 1/π is missing"},
      {1 / pi, "π times too small: it is divided by π once too often"},
      {4, "4 times too large: a 4 is missing below"},
@@ -72,8 +72,9 @@ constexpr std::array<std::pair<double, const char*>, 10> usual_factors{
      {pi / 4, "π/4 of what it should be: 4 stands below where π belongs"},
      {4 * pi, "4π times too large: 1/(4π) is missing"},
      {2 * pi, "2π times too large: 1/(2π) is missing"},
-     {2, "twice too large: a factor ½ is missing, as in V = ½/(…)"},
-     {0.5, "half of what it should be"}}};
+     {2, "twice too large: a factor ½ is missing"},
+     {0.5, "half of what it should be"},
+     {std::numbers::ln2, "ln 2 of what it should be: log2 stands below where ln belongs"}}};
 
 bool is_usual(double factor) {
   return std::ranges::any_of(
@@ -173,8 +174,10 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
     bool is_legal = true;
     for (std::size_t j = 0; j < other.parameters.size(); ++j) {
       const auto from = pairing.of[j];
-      const double v = from ? value_for(other.parameters[j], known[*from], p[*from], power)
-                            : other.parameters[j].start;
+      const bool is_white = own.role() == Role::diffuse && other.parameters[j].name == "kd";
+      const double v = from       ? value_for(other.parameters[j], known[*from], p[*from], power)
+                       : is_white ? 1
+                                  : other.parameters[j].start;
       is_legal = is_legal && other.parameters[j].legal.holds(v);
       q.push_back(v);
     }
@@ -270,15 +273,31 @@ bool is_same(const NearestForm& n) {
   return n.difference < same_within;
 }
 
+namespace {
+
+/// True of a form without a slip, but for what its own steps in float and half round.
+bool is_plain(const NearestForm& n) {
+  constexpr double rounding = 5e-3;
+  return n.difference < rounding && std::abs(n.factor - 1) < same_within && !n.cap && !n.norms &&
+         !n.bite && !n.drop;
+}
+
+}  // namespace
+
 std::optional<NearestForm> nearest_form(std::size_t term) {
   const auto& own = catalogue()[term];
   const auto known = known_parameters(term);
   std::vector<std::optional<std::size_t>> widths;
-  // Whatever its name, a distribution's parameter is a width.
-  if (own.role() == Role::ndf && !width_of(known))
-    for (std::size_t k = 0; k < known.size(); ++k) widths.emplace_back(k);
+  // Whatever its name, a parameter of D or V is a width.
+  const bool is_of_width = own.role() == Role::ndf || own.role() == Role::masking;
+  const bool is_named = width_of(known).has_value();
+  if (is_of_width && !is_named) {
+    const auto all = possible_widths(known);
+    widths.assign(all.begin(), all.end());
+  }
   if (widths.empty()) widths.push_back(width_of(known));
-  std::optional<NearestForm> best;
+  const auto two = two_widths(known);
+  std::optional<NearestForm> best, shipped;
   std::size_t best_map = 0;
   for (std::size_t form = 0; form < catalogue_size(); ++form) {
     const auto& entry = catalogue()[form];
@@ -289,7 +308,8 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
     if (own.anisotropic) {  // the widths along the tangent and the bitangent, in either order
       if (own.parameters.size() != 2 || entry.parameters.size() != 2) continue;
       for (const std::size_t first : {0, 1}) {
-        const auto n = compared(term, form, {{first, 1 - first}, {}}, 1);
+        auto n = compared(term, form, {{first, 1 - first}, {}}, 1);
+        n.is_swapped = two && first != (*two)[0];
         if (std::isfinite(n.difference) && (!best || n.difference < best->difference)) best = n;
       }
       continue;
@@ -306,10 +326,15 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       for (const double& power : powers) {
         const auto n = compared(term, form, pairing, power);
         if (!std::isfinite(n.difference)) continue;
+        // A form as it is shipped goes before the one that it stands for with what ships missing.
+        if (!entry.about->approximates.empty() && is_plain(n) &&
+            (!shipped || n.difference < shipped->difference))
+          shipped = n;
         // A map that a width's name does not allow is no likeness: it is exact or nothing.
-        if (pairing.width && width_of(known) && !is_same(n) &&
-            std::ranges::find(powers_of(known[*pairing.width]), power) ==
-                powers_of(known[*pairing.width]).end())
+        if (pairing.width && !is_same(n) &&
+            (is_named ? std::ranges::find(powers_of(known[*pairing.width]), power) ==
+                            powers_of(known[*pairing.width]).end()
+                      : own.role() == Role::masking))
           continue;
         // Forms may differ by rounding only, near a narrow peak by 1e-5: the plainest map is taken,
         // and the first.
@@ -323,6 +348,12 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       }
     }
   }
+  if (shipped && best && is_same(*best) && !is_plain(*best) &&
+      catalogue()[best->term].id() == catalogue()[shipped->term].about->approximates) {
+    shipped->as_shipped = likely_slips(term, *best);
+    shipped->difference = std::min(shipped->difference, best->difference);
+    return shipped;
+  }
   return best;
 }
 
@@ -331,17 +362,15 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
   if (!is_same(n)) return all;
   const auto& own = catalogue()[term];
   const auto& f = *foreign_term(term)->function;
+  const bool of_each = f.is_g && catalogue()[n.term].id() == "masking.smith_ggx.separable";
   if (n.width) {
     const auto& w = n.width->name;
-    const bool is_roughness = is_rough(*n.width);
+    const bool is_roughness = is_rough(*n.width), is_square = is_squared(*n.width);
     const bool is_width_by_name = width_of(std::span(&*n.width, 1)).has_value();
-    if (is_roughness && n.power == 4)
+    if (is_roughness && !is_square && n.power == 4)
       all.push_back(
           fmt::format("{} is squared once too often: alpha is {}⁴ here, expected {}²", w, w, w));
-    const bool is_squared = w.ends_with('2') || w.ends_with("sq");
-    if (is_squared && n.power == 1)
-      all.push_back(fmt::format("{} is taken for alpha: it has not been squared", w));
-    if (!is_roughness && !is_squared && is_width_by_name && n.power == 2)
+    if (!is_roughness && !is_square && is_width_by_name && n.power == 2)
       all.push_back(
           fmt::format("{} is squared once too often: the form's alpha is {}² here", w, w));
     if (is_roughness && (n.power == of_gloss || n.power == of_gloss_as_alpha))
@@ -350,7 +379,7 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
       all.push_back(fmt::format("{0} is used as a roughness: expected 1 − {0} in its place", w));
     if ((is_roughness || w == "alpha") && n.power == of_inverse)
       all.push_back(fmt::format("{0} is inverted: the form's alpha is 1/{0} here", w));
-    if (!is_roughness && !is_squared && is_width_by_name && n.power == 0.5)
+    if (!is_roughness && !is_square && is_width_by_name && n.power == 0.5)
       all.push_back(
           fmt::format("{} stands where {}² belongs: the form's alpha is √{} here", w, w, w));
   }
@@ -360,7 +389,13 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
                     "distribution, whose ∫ D cos θ is 1",
                     n.norms->low, n.norms->high));
   else if (std::abs(n.factor - 1) > same_within && own.role() != Role::diffuse)
-    all.push_back(factor_text(n.factor));
+    all.push_back(of_each && std::abs(n.factor / 0.25 - 1) < same_within
+                      ? "4 times too small: the 2 of each G1 = 2 c/(c + …) is missing"
+                      : factor_text(n.factor));
+  if (n.is_swapped)
+    all.push_back(fmt::format("{} and {} are swapped: {} belongs to the tangent X",
+                              own.parameters[0].name, own.parameters[1].name,
+                              own.parameters[(*two_widths(known_parameters(term)))[0]].name));
   if (n.cap && n.width) {
     const double alpha = 1 / std::sqrt(std::numbers::pi * *n.cap / n.factor);  // of a GGX peak
     const double w = std::pow(alpha, 1 / n.power);
@@ -390,7 +425,10 @@ std::string k_of(std::string_view form) {
 }
 
 std::vector<std::string> to_check(const Parameter& width, double power) {
-  if (!is_rough(width) || power != 1) return {};
+  if (power == 1 && is_squared(width) && !is_rough(width))
+    return {fmt::format("{} is taken for alpha: right where it is no square, as of a second lobe",
+                        width.name)};
+  if (!is_rough(width) || is_squared(width) || power != 1) return {};
   return {fmt::format(
       "{} is taken for alpha: right where the caller has squared a roughness before; otherwise "
       "highlights are too wide",
@@ -403,6 +441,16 @@ std::vector<std::string> to_check(const NearestForm& n) {
   if (auto k = k_of(catalogue()[n.term].id()); !k.empty()) all.push_back(std::move(k));
   if (n.bite && n.bite->is_little) all.push_back(text_of(*n.bite, *n.width, n.power));
   if (n.drop && n.drop->is_little()) all.push_back(text_of(*n.drop));
+  for (const auto& what : n.as_shipped)
+    all.push_back(fmt::format("{}; {} ships so", what, catalogue()[n.term].id()));
+  if (catalogue()[n.term].role() == Role::diffuse && std::abs(n.factor - 1) > same_within) {
+    constexpr double pi_of_energy = 1e-3;
+    all.push_back(std::abs(n.factor / std::numbers::pi - 1) < pi_of_energy
+                      ? "1/π is missing: right where its caller divides by π"
+                      : fmt::format("its value is {:.4g} times that form's: right where that is "
+                                    "meant, as energy that a diffuse part may keep",
+                                    n.factor));
+  }
   return all;
 }
 

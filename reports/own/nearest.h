@@ -28,8 +28,10 @@ struct NearestForm {
   /// Least and largest of the factors by width, where one for all is not enough: the form is right, its norm is not.
   std::optional<Range> norms;
   std::optional<Bite> bite;
-  std::optional<Drop> drop;  ///< of masking
-  bool of_one = false;       ///< masking by one direction
+  std::optional<Drop> drop;               ///< of masking
+  bool of_one = false;                    ///< masking by one direction
+  bool is_swapped = false;                ///< its two widths, by their names
+  std::vector<std::string> as_shipped{};  ///< what it lacks beside the form that it stands for
 };
 
 /// The nearest form of the same role; none where nothing has a value that can be compared.

@@ -64,6 +64,7 @@ class Search {
       : term_(term),
         own_(known_parameters(term)),
         width_(width),
+        second_(two_widths(own_)),
         colours_(colours),
         half_(half),
         interface_(interface) {
@@ -91,6 +92,12 @@ class Search {
         if (auto n = of_highlight(Sought::right)) return n;
       }
     if (half_.cosines) return {};
+    if (std::ranges::any_of(own_, is_metallic) && !colours_.f0.empty()) {
+      lambert_ = std::numbers::inv_pi;
+      take_white(disguises()[0], Others::low);
+      if (auto n = of_highlight(Sought::right)) return n;
+      lambert_ = 0;
+    }
     for (const auto sought : {Sought::guarded, Sought::slips})
       for (const auto others : {Others::low, Others::usual}) {
         take_white(disguises()[0], others);
@@ -128,10 +135,15 @@ class Search {
       if (!(std::abs(2 * half[i] / white_[0][i] - 1) < same_within)) return false;
     return true;
   }
+  void set_width(Values& p, double width) const {
+    p[width_] = width;
+    if (second_ && (*second_)[0] == width_) p[(*second_)[1]] = width;
+  }
   Values highlight(double f0, double width, std::span<const Row> rows) const {
     auto p = with_highlight(own_, colours_, f0, others_);
-    p[width_] = width;
+    set_width(p, width);
     auto f = values_in(Number::double_, term_, p, rows);
+    for (double& x : f) x -= f0 * lambert_;
     if (interface_.id.empty()) return f;
     const auto of = interface_.values(as_taken(rows));
     for (std::size_t i = 0; i < f.size(); ++i) f[i] /= of[i];
@@ -139,7 +151,7 @@ class Search {
   }
   Values diffuse(double colour, Others others) const {
     auto p = with_diffuse(own_, colours_, colour, others);
-    p[width_] = widths_[0];
+    set_width(p, widths_[0]);
     return values_in(Number::double_, term_, p, rows_);
   }
   /// Rows as a distribution and a Fresnel term of the shader's half vector have them.
@@ -256,7 +268,8 @@ class Search {
     };
     const double factor = white_[0][peak_] / wanted(0, peak_);
     if (!(factor > 0) || !std::isfinite(factor)) return 0;
-    const double least = 1e-30 * std::abs(white_[0][peak_]);
+    // Rounding where next to nothing is left, as of a sheen along the normal.
+    constexpr double of_peak = 1e-13;
     std::size_t held_down = 0;
     const std::size_t widths = std::min(d.values.size(), v.values.size());
     constexpr std::size_t enough = 2;
@@ -264,7 +277,8 @@ class Search {
             is_guarded_.begin(), is_guarded_.begin() + static_cast<std::ptrdiff_t>(widths),
             false)) < enough)
       return 0;
-    for (std::size_t k = 0; k < widths; ++k)
+    for (std::size_t k = 0; k < widths; ++k) {
+      const double least = of_peak * std::abs(*std::ranges::max_element(white_[k]));
       for (std::size_t i = 0; i < rows_.size() && !is_guarded_[k]; ++i) {
         const double w = factor * wanted(k, i), off = white_[k][i] - w;
         constexpr double loose = 5e-3;
@@ -272,6 +286,7 @@ class Search {
         if (k == 0 || !(off < 0)) return 0;
         ++held_down;
       }
+    }
     return 2 * held_down < (widths - 1) * rows_.size() ? factor : 0;
   }
 
@@ -306,13 +321,14 @@ class Search {
       guard_ = guard_of(grazing_, own, form);
     }
     n.drop = drop_of([&](const Row& r) { return left_at(widths_[0], r); }, guard_);
-    n.masking = v.id();
-    auto spec = model_of_lobe(d.id(), n.masking, "schlick");
+    n.shape = d.id(), n.masking = v.id();
+    auto spec = model_of_lobe(n.shape, n.masking, "schlick");
     if (const auto form = take_fresnel(n, over_form, v.values[0])) {
       const std::string id(catalogue()[*form].id());
       spec.lobes[0].fresnel = id.substr(id.find('.') + 1);
     }
-    if (take_diffuse(n)) spec.diffuse = "lambert";
+    n.keeps_lambert = lambert_ > 0;
+    if (n.keeps_lambert || take_diffuse(n)) spec.diffuse = "lambert";
     n.spec = to_text(spec);
     const auto channels = channels_of(*foreign_term(term_)->function);
     n.operations = operations_in(n.spec, channels);
@@ -327,12 +343,19 @@ class Search {
     if (!interface_.id.empty()) return find_term(interface_.id);
     const auto& colour = own_[colours_.f0[0]];
     const double f0 = low_of(colour) + 0.04 * (high_of(colour) - low_of(colour));
-    auto f = over_form(highlight(f0, widths_[0], rows_), widths_[0], rows_);
+    const auto all = over_form(highlight(f0, widths_[0], rows_), widths_[0], rows_);
     const bool is_of_f = disguise_->is_of_f;
-    for (std::size_t i = 0; i < f.size() && !is_of_f; ++i) f[i] /= disguise_->factor(rows_[i]);
-    if (guard_)
-      for (std::size_t i = 0; i < f.size(); ++i) f[i] /= guard_->left(rows_[i], v_of_widest[i]);
-    const auto taken = as_taken(rows_);
+    const double least =
+        1e-9 * std::abs(white_[0][peak_]);  // where D leaves nothing, F is not seen
+    Values f;
+    std::vector<Row> rows;
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      if (!(std::abs(white_[0][i]) > least)) continue;
+      rows.push_back(rows_[i]);
+      f.push_back(all[i] / (is_of_f ? 1 : disguise_->factor(rows_[i])) /
+                  (guard_ ? guard_->left(rows_[i], v_of_widest[i]) : 1));
+    }
+    const auto taken = as_taken(rows);
     const auto is = [&](auto value) {
       for (std::size_t i = 0; i < f.size(); ++i)
         if (!(std::abs(f[i] - value(i)) < 2e-3)) return false;
@@ -356,7 +379,7 @@ class Search {
       return form;
     }
     n.fresnel_slip = fresnel_slip(f0, taken, f, true);
-    if (n.fresnel_slip.empty()) n.fresnel_slip = fresnel_slip(f0, rows_, f, true);
+    if (n.fresnel_slip.empty()) n.fresnel_slip = fresnel_slip(f0, rows, f, true);
     n.other_fresnel = n.fresnel_slip.empty();
     return {};
   }
@@ -365,7 +388,7 @@ class Search {
   bool varies_of_a_dielectric(const auto& over_form) const {
     if (!colours_.metallic) return false;
     auto p = with_diffuse(own_, colours_, low_of(own_[colours_.f0[0]]), others_);
-    p[width_] = widths_[0];
+    set_width(p, widths_[0]);
     const auto f = over_form(values_in(Number::double_, term_, p, rows_), widths_[0], rows_);
     const auto [least, most] = std::ranges::minmax(f);
     constexpr double much = 1.5;
@@ -378,7 +401,7 @@ class Search {
     Values with, without;
     const auto at = [&](Others others) {
       auto p = with_diffuse(own_, colours_, 0, others);
-      p[width_] = widths_[0];
+      set_width(p, widths_[0]);
       if (colours_.eta) p[*colours_.eta] = usual_of(own_[*colours_.eta]);  // it is the highlight's
       return values_in(Number::double_, term_, p, rows_);
     };
@@ -401,6 +424,8 @@ class Search {
   std::size_t term_;
   std::vector<Parameter> own_;
   std::size_t width_;
+  std::optional<std::array<std::size_t, 2>> second_;  ///< along tangent and bitangent: one here
+  double lambert_ = 0;  ///< what a diffuse part of F0's colour has beside the highlight
   PartColours colours_;
   HalfVector half_;
   Interface interface_;
@@ -441,11 +466,8 @@ std::string advice_of_colours(std::span<const Parameter> own) {
 std::optional<NearestModel> nearest_model(std::size_t term, std::string& why) {
   if (catalogue()[term].role() != Role::diffuse) return {};
   const auto own = known_parameters(term);
-  std::vector<std::size_t> widths;
   const auto named = width_of(own);
-  if (named) widths.push_back(*named);
-  for (std::size_t k = 0; k < own.size() && !named; ++k)
-    if (!is_colour(own[k]) && !is_eta(own[k])) widths.push_back(k);
+  const auto widths = possible_widths(own);
   auto colours = possible_colours(own);
   const bool has_f0 = part_colours(own).has_value();
   if (!has_f0) {

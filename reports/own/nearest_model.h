@@ -25,6 +25,7 @@ struct NearestModel {
                                ///< has another diffuse part
   bool lacks_diffuse =
       false;  ///< the function has a diffuse part that is not Lambert's, which the model has not
+  bool keeps_lambert = false;  ///< Lambert's part has the colour of F0
   bool other_fresnel = false;  ///< F is that of none of ours
   std::string disguise;        ///< what its highlight is multiplied with, a sentence
   bool is_weight = false;      ///< `disguise` is right where F0 is a weight
@@ -32,7 +33,7 @@ struct NearestModel {
   std::string interface_slip;  ///< likewise, of F that comes from eta
   std::string form_slip;       ///< of D or V
   std::string half_vector;     ///< a sentence
-  std::string masking;         ///< the form of V, without its role
+  std::string shape, masking;  ///< the forms of D and V, without their roles
   std::optional<Bite> bite;
   std::optional<Drop> drop;
 };
@@ -43,6 +44,10 @@ std::optional<NearestModel> nearest_model(std::size_t foreign_term, std::string&
 /// The likely mistakes in its factor, its width and its parts, a sentence each.
 /// \param guessed_pi  that its value includes π is a guess
 std::vector<std::string> likely_slips(const NearestModel&, const Parameter& width, bool guessed_pi);
+/// True of a highlight without a diffuse part that is that of ours only without the π that was guessed.
+bool is_without_pi(const NearestModel&);
+/// Whether its highlight is a sheen, which no smooth surface has.
+bool is_sheen(const NearestModel&);
 /// "its highlight is 4 times too large: a 4 is missing below"
 std::string highlight_text(double factor, bool guessed_pi);
 /// What is right for some uses and wrong for others, a sentence each.

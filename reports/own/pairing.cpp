@@ -16,21 +16,6 @@ std::string known(const Parameter& p) {
   return plain_name(stem_of(p.meaning));
 }
 
-/// Two widths along the tangent and the bitangent: ax and ay, alpha_t and alpha_b …
-std::optional<std::array<std::size_t, 2>> two_widths(std::span<const Parameter> all) {
-  for (std::size_t i = 0; i < all.size(); ++i)
-    for (std::size_t j = 0; j < all.size(); ++j) {
-      const auto a = known(all[i]), b = known(all[j]);
-      if (a.size() < 2 || a.size() != b.size() || a.compare(0, a.size() - 1, b, 0, a.size() - 1))
-        continue;
-      const std::string ends{a.back(), b.back()};
-      const bool is_width =
-          (a[0] == 'a' && a.size() == 2) || a.starts_with("alpha") || a.starts_with("rough");
-      if (is_width && (ends == "xy" || ends == "tb" || ends == "uv")) return {{i, j}};
-    }
-  return {};
-}
-
 StandsFor itself(std::span<const Parameter> own, std::size_t k, double scale = 1) {
   return {[k, scale](std::span<const double> v) { return scale * v[k]; },
           fmt::format("{}{}", scale == 1 ? "" : fmt::format("{} ", scale), stem_of(own[k].name))};
@@ -69,10 +54,6 @@ Pairs by_name(std::span<const Parameter> own, std::span<const Parameter> other) 
 }
 
 }  // namespace
-
-bool is_metallic(const Parameter& p) {
-  return known(p).starts_with("metal");
-}
 
 std::vector<Pairs> possible_pairs(std::span<const Parameter> own,
                                   std::span<const Parameter> other) {
@@ -114,12 +95,16 @@ std::vector<Pairs> possible_pairs(std::span<const Parameter> own,
         for (const double sign : {1.0, -1.0})
           add((*two_of_other)[0], along(sign, is_aspect), along(-sign, is_aspect));
     }
-  } else if (width && width_of_other) {
-    for (const double power : conventions_of(own[*width]))
-      add(*width_of_other,
-          known(own[*width]) == known(other[*width_of_other])
-              ? itself(own, *width)
-              : width_of_alpha(alpha_by(own, *width, power), other[*width_of_other]));
+  } else if (width_of_other) {
+    for (const auto k : possible_widths(own)) {
+      if (!width &&
+          std::ranges::any_of(other, [&](const Parameter& q) { return means_same(own[k], q); }))
+        continue;
+      for (const double power : conventions_of(own[k]))
+        add(*width_of_other, known(own[k]) == known(other[*width_of_other])
+                                 ? itself(own, k)
+                                 : width_of_alpha(alpha_by(own, k, power), other[*width_of_other]));
+    }
   }
   if (all.empty()) all.push_back(named);
   return all;

@@ -25,8 +25,6 @@ using Pairs = std::vector<std::optional<StandsFor>>;
 /// \param own    with their known names
 /// \param other  likewise
 std::vector<Pairs> possible_pairs(std::span<const Parameter> own, std::span<const Parameter> other);
-/// Whether a metallic workflow's metals are meant.
-bool is_metallic(const Parameter&);
 /// Those of one's own that stand for nothing.
 std::vector<std::size_t> unpaired(const Pairs&, std::span<const Parameter> own);
 /// "kd = albedo, alpha = roughness²"

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <iterator>
 
 #include "base/letters.h"
 #include "brdf/catalogue/foreign_terms.h"
@@ -22,19 +23,35 @@ std::vector<Parameter> known_parameters(std::size_t term) {
   return all;
 }
 
+namespace {
+
+/// What is squared by its name: "alpha" of alphasq, "" of squared; none where the name says no square.
+std::optional<std::string_view> square_of(std::string_view plain) {
+  for (const std::string_view end : {"squared", "square", "pow2", "sqr", "sq", "2", "pow4", "4"})
+    if (plain.ends_with(end)) return plain.substr(0, plain.size() - end.size());
+  return {};
+}
+
+}  // namespace
+
 std::string plain_name(std::string_view name) {
   constexpr std::string_view prefixes = "umg";
   for (const std::string_view of_struct : {"material_", "mat_"})
     if (name.starts_with(of_struct) && name.size() > of_struct.size())
       name.remove_prefix(of_struct.size());
   const auto is_upper = [](char c) { return c != lower_case(c); };
+  const auto plain = [](std::string_view n) {
+    std::string s;
+    for (const char c : n)
+      if (c != '_') s += lower_case(c);
+    return s;
+  };
   if (name.size() > 2 && prefixes.find(name[0]) != prefixes.npos &&
-      (name[1] == '_' || (is_upper(name[1]) && !is_upper(name[0]))))
-    name.remove_prefix(1);
-  std::string s;
-  for (const char c : name)
-    if (c != '_') s += lower_case(c);
-  return s;
+      (name[1] == '_' || (is_upper(name[1]) && !is_upper(name[0])))) {
+    auto rest = plain(name.substr(1));
+    if (!square_of(rest)) return rest;  // mSq is the square of m
+  }
+  return plain(name);
 }
 
 std::string_view stem_of(std::string_view n) {
@@ -49,10 +66,27 @@ std::string known_as(const Parameter& p) {
   return plain_name(stem_of(p.meaning));
 }
 
+/// Of several parameters that may be F0, one that scales the highlight.
+bool is_weight(const Parameter& p) {
+  const auto n = known_as(p);
+  return std::ranges::any_of(std::array{"weight", "intensity", "strength", "factor"},
+                             [&](const char* end) { return n.ends_with(end); });
+}
+
 }  // namespace
+
+bool is_f90(const Parameter& p) {
+  const auto n = known_as(p);
+  return n.starts_with("f90") || n.ends_with("f90");
+}
+
+bool is_metallic(const Parameter& p) {
+  return known_as(p).starts_with("metal");
+}
 
 bool is_f0(const Parameter& p) {
   const auto n = known_as(p);
+  if (is_f90(p)) return false;
   return n.starts_with("f0") || n == "r0" || n == "ks" || n == "spec" || n.starts_with("spec0") ||
          n == "specf0" || n.starts_with("speccol") ||
          (n.starts_with("specular") && n.find("tint") == n.npos && !is_exponent(p));
@@ -60,6 +94,7 @@ bool is_f0(const Parameter& p) {
 
 bool is_colour(const Parameter& p) {
   const auto n = known_as(p);
+  if (is_f90(p)) return false;
   return p.per_channel || stem_of(p.name) != p.name || is_f0(p) ||
          std::ranges::any_of(std::array{"kd", "albedo", "diffuse", "specular"},
                              [&](const char* begin) { return n.starts_with(begin); }) ||
@@ -68,7 +103,13 @@ bool is_colour(const Parameter& p) {
 
 bool is_rough(const Parameter& p) {
   const auto n = known_as(p);  // alphaRoughness of glTF's sample renderer is alpha
-  return n.find("rough") != n.npos && !n.starts_with("alpha");
+  return n.find("rough") != n.npos && n.find("alpha") == n.npos;
+}
+
+bool is_squared(const Parameter& p) {
+  const auto n = known_as(p);
+  const auto of = square_of(n);
+  return of && !of->empty();
 }
 
 bool is_exponent(const Parameter& p) {
@@ -106,10 +147,39 @@ std::optional<std::size_t> width_of(std::span<const Parameter> parameters) {
       if (known_as(parameters[k]).starts_with(name)) return k;
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto n = known_as(parameters[k]);
-    if (is_exponent(parameters[k]) || n == "a" || n == "a2" || n == "m" || n == "r" ||
-        n.find("rough") != n.npos)
+    const auto letter = square_of(n).value_or(n);
+    if (is_exponent(parameters[k]) || letter == "a" || letter == "m" || letter == "r" ||
+        n.find("rough") != n.npos || n.find("alpha") != n.npos)
       return k;
   }
+  if (const auto two = two_widths(parameters)) return (*two)[0];
+  return {};
+}
+
+std::vector<std::size_t> possible_widths(std::span<const Parameter> parameters) {
+  if (const auto named = width_of(parameters)) return {*named};
+  std::vector<std::size_t> all;
+  for (std::size_t k = 0; k < parameters.size(); ++k) {
+    const auto& p = parameters[k];
+    if (!is_colour(p) && !is_metallic(p) && !is_eta(p) && !is_f90(p)) all.push_back(k);
+  }
+  return all;
+}
+
+std::optional<std::array<std::size_t, 2>> two_widths(std::span<const Parameter> all) {
+  const auto is_width = [](const std::string& n) {
+    return (n[0] == 'a' && n.size() == 2) || n.starts_with("alpha") || n.starts_with("rough");
+  };
+  for (std::size_t i = 0; i < all.size(); ++i)
+    for (std::size_t j = 0; j < all.size(); ++j) {
+      const auto a = known_as(all[i]), b = known_as(all[j]);
+      const bool is_said = i < j && a == b && stem_of(all[i].name) != stem_of(all[j].name);
+      if (is_said && is_width(a)) return {{i, j}};  // by --argument
+      if (a.size() < 2 || a.size() != b.size() || a.compare(0, a.size() - 1, b, 0, a.size() - 1))
+        continue;
+      const std::string ends{a.back(), b.back()};
+      if (is_width(a) && (ends == "xy" || ends == "tb" || ends == "uv")) return {{i, j}};
+    }
   return {};
 }
 
@@ -120,7 +190,8 @@ struct Natural {
   double low, usual, high;
 };
 Natural natural_of(const Parameter& p) {
-  if (is_colour(p) || known_as(p).starts_with("metal")) return {0, 0.5, 1};
+  if (is_f90(p)) return {0, 1, 1};
+  if (is_colour(p) || is_metallic(p)) return {0, 0.5, 1};
   if (is_eta(p)) return {1.1, 1.5, 2.5};
   return {0.05, 0.5, 1};
 }
@@ -167,8 +238,9 @@ bool is_gloss(const Parameter& p) {
 }
 
 std::span<const double> powers_of(const Parameter& width) {
-  static constexpr std::array powers{1.0, 2.0, 0.5, 4.0};
+  static constexpr std::array powers{1.0, 2.0, 0.5, 4.0}, of_squares{0.5, 1.0, 2.0, 4.0};
   if (is_exponent(width)) return {&of_exponent, 1};
+  if (is_squared(width)) return of_squares;
   return is_gloss(width) ? std::span<const double>(of_glosses) : powers;
 }
 
@@ -181,8 +253,9 @@ std::vector<double> every_power(const Parameter& width) {
 }
 
 std::span<const double> conventions_of(const Parameter& width) {
-  static constexpr std::array of_roughness{2.0, 1.0}, others{1.0, 2.0};
+  static constexpr std::array of_roughness{2.0, 1.0}, others{1.0, 2.0}, of_squares{0.5, 1.0};
   if (is_exponent(width) || is_gloss(width)) return powers_of(width);
+  if (is_squared(width)) return of_squares;
   if (known_as(width) == "alpha") return std::span(others).first(1);
   return is_rough(width) ? of_roughness : others;
 }
@@ -207,13 +280,18 @@ std::optional<PartColours> part_colours(std::span<const Parameter> parameters) {
   for (std::size_t k = 0; k < parameters.size(); ++k) {
     const auto& p = parameters[k];
     const auto n = known_as(p);
-    if (n.starts_with("metal")) c.metallic = k;
+    if (is_metallic(p)) c.metallic = k;
     if (is_eta(p)) c.eta = k;
     if (is_f0(p))
       c.f0.push_back(k);
     else if (is_colour(p) && n.find("sheen") == n.npos && n.find("coat") == n.npos &&
              n.find("emi") == n.npos)
       c.diffuse.push_back(k);
+  }
+  const auto scales = [&](std::size_t k) { return is_weight(parameters[k]); };
+  if (!std::ranges::all_of(c.f0, scales)) {
+    std::ranges::copy_if(c.f0, std::back_inserter(c.weights), scales);
+    std::erase_if(c.f0, scales);
   }
   if (c.metallic && !c.diffuse.empty()) c.f0 = c.diffuse;
   if (!c.f0.empty()) c.eta.reset();
@@ -244,10 +322,11 @@ std::vector<double> plain_values(std::span<const Parameter> parameters, Others o
     const bool is_low = is_colour(p)
                             ? !std::isnan(p.start)
                             : others == Others::low && !std::isnan(p.start) && !is_rough(p);
-    v.push_back(is_anisotropy(p) && p.legal.holds(0) ? 0
-                : is_low && !is_anisotropy(p)        ? low_of(p)
-                : is_colour(p)                       ? 0
-                                                     : usual_of(p));
+    v.push_back(is_f90(p)                              ? high_of(p)
+                : is_anisotropy(p) && p.legal.holds(0) ? 0
+                : is_low && !is_anisotropy(p)          ? low_of(p)
+                : is_colour(p)                         ? 0
+                                                       : usual_of(p));
   }
   return v;
 }
@@ -272,6 +351,7 @@ std::vector<double> with_highlight(std::span<const Parameter> parameters,
                                    double f0,
                                    Others others) {
   auto v = with_part(parameters, colours, colours.f0, f0, high_of, others);
+  for (const auto k : colours.weights) v[k] = high_of(parameters[k]);
   if (colours.eta) v[*colours.eta] = high_of(parameters[*colours.eta]);
   return v;
 }

@@ -2,6 +2,7 @@
 /// \file
 /// What parameters of a person's function stand for, by their names.
 
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <span>
@@ -26,6 +27,10 @@ bool is_colour(const Parameter&);
 bool is_f0(const Parameter&);
 /// Whether a parameter's name says roughness, whose square alpha is.
 bool is_rough(const Parameter&);
+/// Whether its name says that it is a square already: a2, alphaSq, roughness_squared; r4 is the square of alpha, too.
+bool is_squared(const Parameter&);
+/// Whether it is the reflectance at grazing angles, which is 1 of most surfaces.
+bool is_f90(const Parameter&);
 /// Whether it says how smooth a surface is.
 bool is_gloss(const Parameter&);
 /// Whether it is the exponent of a cosine.
@@ -38,6 +43,12 @@ bool is_eta(const Parameter&);
 bool means_same(const Parameter&, const Parameter&);
 /// The parameter whose name says that it is a width: alpha, roughness, m …
 std::optional<std::size_t> width_of(std::span<const Parameter>);
+/// That one; or where no name says so, each that may be: neither a colour nor a metallic nor eta.
+std::vector<std::size_t> possible_widths(std::span<const Parameter>);
+/// Two widths along the tangent and the bitangent: ax and ay, alpha_t and alpha_b …; or two of one role.
+std::optional<std::array<std::size_t, 2>> two_widths(std::span<const Parameter>);
+/// Whether a metallic workflow's metals are meant.
+bool is_metallic(const Parameter&);
 
 /// A parameter's low end, default and high end; of one without bounds those of its role: 0 to 1 of colours and metals, 0.05 to 1 of
 /// widths, 1.1 to 2.5 of eta.
@@ -65,6 +76,7 @@ std::string alpha_text(const std::string& width, double power);
 /// The parameters that colour the two parts of a whole model.
 struct PartColours {
   std::vector<std::size_t> f0, diffuse;  ///< the same where there is a metallic
+  std::vector<std::size_t> weights;      ///< of the highlight, beside F0
   std::optional<std::size_t> metallic;
   std::optional<std::size_t> eta;  ///< that stands for F0 where nothing else does
 };

@@ -26,17 +26,21 @@ class Parts {
   Parts(std::size_t term,
         const OwnAlbedo& albedo,
         const std::optional<NearestModel>& model,
+        bool is_sheen,
         bool guessed_pi,
         PartsAudit& into)
       : term_(term),
         albedo_(albedo),
         own_(known_parameters(term)),
         model_(model),
+        is_sheen_(is_sheen),
         guessed_pi_(guessed_pi),
         a_(into) {
     width_ = width_of(own_);
     colours_ = part_colours(own_);
-    if (model) width_ = model->width, colours_ = model->colours;
+    if (!model) return;
+    width_ = model->width, colours_ = model->colours;
+    kept_ = model->keeps_lambert ? 1 : 0;
   }
 
   void take() {
@@ -66,7 +70,7 @@ class Parts {
   /// Along the normal masking takes nothing from a smooth highlight, and all light returns.  Says what is lost or gained.
   /// \return  whether it returns what it should
   bool take_highlight() {
-    if (!width_ || std::isnan(own_[*width_].start)) return false;
+    if (!width_ || is_sheen_ || std::isnan(own_[*width_].start)) return false;
     const auto& w = own_[*width_];
     power_ = model_ ? model_->power : conventions_of(w)[0];
     const double narrow = narrows(power_) ? w.legal.high : w.legal.low;
@@ -75,7 +79,8 @@ class Parts {
     const auto at = [&](double v, Others others) {
       auto p = with_white(others);
       p[*width_] = v;
-      return albedo_.along_normal(p) / brightest();
+      if (const auto two = two_widths(own_)) p[(*two)[0]] = p[(*two)[1]] = v;
+      return (albedo_.along_normal(p) - kept_) / brightest();
     };
     // With all else at its lower end there may be no light at all.
     others_ = at(w.start, Others::low) > 0 ? Others::low : Others::usual;
@@ -281,11 +286,12 @@ class Parts {
   const OwnAlbedo& albedo_;
   std::vector<Parameter> own_;
   const std::optional<NearestModel>& model_;
-  bool guessed_pi_;
+  bool is_sheen_, guessed_pi_;
   PartsAudit& a_;
   std::optional<std::size_t> width_;
   std::optional<PartColours> colours_;
   double power_ = 1, narrowest_ = 0;
+  double kept_ = 0;  ///< albedo of a diffuse part that a highlight of F0 = 1 leaves
   Others others_ = Others::low;
 };
 
@@ -294,9 +300,10 @@ class Parts {
 PartsAudit audit_parts(std::size_t term,
                        const OwnAlbedo& albedo,
                        const std::optional<NearestModel>& model,
+                       bool is_sheen,
                        bool guessed_pi) {
   PartsAudit a;
-  Parts(term, albedo, model, guessed_pi, a).take();
+  Parts(term, albedo, model, is_sheen, guessed_pi, a).take();
   return a;
 }
 

@@ -18,10 +18,12 @@ struct PartsAudit {
   std::vector<std::string> slips, to_check;
 };
 /// \param model       ours that it is, where there is one
+/// \param is_sheen    its highlight is none that a smooth surface has
 /// \param guessed_pi  that its value includes π is a guess
 PartsAudit audit_parts(std::size_t foreign_term,
                        const OwnAlbedo&,
                        const std::optional<NearestModel>& model,
+                       bool is_sheen,
                        bool guessed_pi);
 
 }  // namespace gonio

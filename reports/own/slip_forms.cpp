@@ -8,6 +8,7 @@
 
 #include "brdf/catalogue/foreign_terms.h"
 #include "brdf/in_number/number.h"
+#include "reports/own/laws.h"
 #include "reports/own/nearest.h"
 #include "reports/own/parameters.h"
 
@@ -183,6 +184,14 @@ constexpr std::array of_pair{
                return correlated(r, std::sqrt(below(a, r.nov)), std::sqrt(below(a, r.nol)));
              },
              swapped_cosines, "smith_ggx.correlated"},
+    SlipForm{[](double a, const Row& r) { return 0.25 / (r.nol * std::sqrt(below(a, r.nov))); },
+             "its term of the view stands twice: that of the light, NoV beside the root with NoL, "
+             "is missing",
+             "smith_ggx.correlated"},
+    SlipForm{[](double a, const Row& r) { return 0.25 / (r.nov * std::sqrt(below(a, r.nol))); },
+             "its term of the light stands twice: that of the view, NoL beside the root with NoV, "
+             "is missing",
+             "smith_ggx.correlated"},
     SlipForm{[](double a, const Row& r) { return correlated(r, below(a, r.nol), below(a, r.nov)); },
              no_root, "smith_ggx.correlated"},
     SlipForm{[](double a, const Row& r) {
@@ -293,6 +302,7 @@ bool are(std::span<const double> values,
     if (std::isfinite(wanted.back())) most = std::max(most, std::abs(wanted.back()));
   }
   constexpr double rounding = 1e-6;  // of 1 − NoH² beside sin² θ
+  if (!(most > 0)) return false;
   for (std::size_t i = 0; i < rows.size(); ++i) {
     if (!std::isfinite(wanted[i]) || (rows[i].noh == 0 && !std::isfinite(values[i]))) continue;
     if (!(std::abs(values[i] - wanted[i]) <= same_within * std::abs(wanted[i]) + rounding * most))
@@ -440,6 +450,7 @@ std::string slip_form(std::size_t term) {
     for (const double w : widths) alphas.push_back(alpha_of(w, power));
     if (auto slip = sum_in_masking(rows, values, alphas); !slip.empty()) return slip;
   }
+  if (!other_cosine(*foreign_term(term)->function)) return "";
   for (const auto& forms : of_one_direction)
     if (auto slip = named(forms); !slip.empty()) return slip;
   return "";

@@ -109,6 +109,14 @@ std::vector<Ref> coordinates(Program& p, char direction) {
   }
 }
 
+std::vector<Ref> from_half(Program& p, char direction) {
+  if (direction != 'L' && direction != 'V')
+    return coordinates(p, direction == 'H' ? 'N' : direction);
+  const Ref c = p.input(true, angle("voh")), zero = p.constant(0), one = p.constant(1);
+  const Ref s = p(Op::sqrt, p(Op::max, zero, p(Op::sub, one, p(Op::mul, c, c))));
+  return {direction == 'V' ? s : p(Op::neg, s), p.frame_zero(), c};
+}
+
 Ref cosine(Program& p, const std::string& name) {
   if (name != "lov") return p.input(true, angle(name));
   const auto l = coordinates(p, 'L'), v = coordinates(p, 'V');

@@ -21,6 +21,8 @@ std::string direction_of(const std::string& name, std::size_t size, const Readin
 std::size_t angle(std::string_view name);
 /// Scalars of a direction, in the frame N = z.
 std::vector<Ref> coordinates(Program&, char direction);
+/// The same in the frame of the half vector, where VoH is all that light and view have.
+std::vector<Ref> from_half(Program&, char direction);
 Ref cosine(Program&, const std::string& name);
 
 }  // namespace gonio::foreign

@@ -22,29 +22,50 @@ constexpr std::size_t most_read = 16;  ///< parameters of a function
 /// OpVariable
 constexpr std::uint32_t spirv_variable = 59;
 
-/// The function that a file means: one called BRDF, or else the last that takes two directions.
+/// True of a function that takes two directions, as a whole model does.
+bool takes_two(const SpirvModule& m, const SpirvFunction& f) {
+  std::set<std::string> taken;
+  for (const auto& [argument, type] : f.parameters) {
+    const Id held = m.type(type).op == spirv_pointer ? m.type(type).element : type;
+    if (m.is_of_numbers(held)) taken.insert(direction_of(m.name(argument), m.size(held), {}));
+  }
+  return (taken.contains("L") && taken.contains("V")) ||
+         (taken.contains("nol") && taken.contains("nov") && taken.contains("noh"));
+}
+
+/// The function that a file means: one called BRDF, the only one, or the only whole model: a function of two directions that no other
+/// such calls, and that by its value is no masking or Fresnel term.
 std::string main_function(const Compiled& c, const std::string& path) {
   const SpirvModule& m = *c.module;
   const auto& all = c.functions;
-  std::vector<std::string> names;
-  std::optional<std::string> last;
-  int line = -1;
+  std::vector<std::string> names, models;
   for (const auto& [name, id] : all) {
     names.push_back(name);
     if (plain(name) == "brdf") return name;
-    const auto& f = m.functions().at(id);
-    std::set<std::string> taken;
-    for (const auto& [argument, type] : f.parameters) {
-      const Id held = m.type(type).op == spirv_pointer ? m.type(type).element : type;
-      if (m.is_of_numbers(held)) taken.insert(direction_of(m.name(argument), m.size(held), {}));
-    }
-    const bool of_two = (taken.contains("L") && taken.contains("V")) ||
-                        (taken.contains("nol") && taken.contains("nov") && taken.contains("noh"));
-    if ((of_two && f.line > line) || all.size() == 1) last = name, line = f.line;
+    if (takes_two(m, m.functions().at(id)) || all.size() == 1) models.push_back(name);
   }
-  if (last) return *last;
+  const auto calls = [&](const std::string& caller, const std::string& called) {
+    return caller != called && m.calls(all.at(caller), all.at(called));
+  };
+  const auto candidates = models;
+  std::erase_if(models, [&](const std::string& called) {
+    return std::ranges::any_of(candidates, [&](const std::string& n) { return calls(n, called); });
+  });
+  if (models.size() > 1)
+    std::erase_if(models, [&](const std::string& name) {
+      try {
+        return read_function({path, name}).stands != Stands::lobe;
+      } catch (const Error&) {
+        return true;  // what cannot be run is none
+      }
+    });
+  if (models.size() == 1) return models[0];
   if (names.empty()) refuse_nameless(c, path);
-  throw wrong_usage(fmt::format("{}: which function? it has: {}", path, fmt::join(names, ", ")));
+  if (models.empty())
+    throw wrong_usage(fmt::format("{}: which function? it has: {}", path, fmt::join(names, ", ")));
+  throw wrong_usage(
+      fmt::format("{0}: which function? its whole models are {1}; name one, as {0}:{2}", path,
+                  fmt::join(models, ", "), models[0]));
 }
 
 /// A parameter as the text declares it: a name for several numbers.
@@ -55,7 +76,9 @@ struct Raw {
 
 class Builder {
  public:
-  Builder(const Name& name, const Compiled& c, std::optional<Stands> as) : c_(c), m_(*c.module) {
+  /// \param by_half  its directions are seen from the half vector: all that is left of them is VoH
+  Builder(const Name& name, const Compiled& c, std::optional<Stands> as, bool by_half)
+      : c_(c), m_(*c.module), by_half_(by_half) {
     f_.name = name;
     if (f_.name.function.empty()) f_.name.function = main_function(c, name.file);
     f_.sha256 = c.source.sha256;
@@ -130,8 +153,9 @@ class Builder {
     const std::string stands_for =
         c_.source.explorer && declared ? std::string() : direction_of(name, size, reading);
     note(name, stands_for.empty() ? "parameter" : stands_for);
-    if (!stands_for.empty())
-      return size == 3 ? coordinates(p, stands_for[0]) : std::vector{cosine(p, stands_for)};
+    if (!stands_for.empty() && size == 3)
+      return by_half_ ? from_half(p, stands_for[0]) : coordinates(p, stands_for[0]);
+    if (!stands_for.empty()) return {cosine(p, stands_for)};
     auto known = std::ranges::find(raw_, name, &Raw::name);
     if (known == raw_.end()) {
       known = raw_.insert(known, {name, size, numbers_});
@@ -322,6 +346,7 @@ class Builder {
   const Compiled& c_;
   const SpirvModule& m_;
   Function f_;
+  bool by_half_;
   std::optional<Stands> as_;
   std::vector<Raw> raw_;
   std::size_t numbers_ = 0;
@@ -332,7 +357,9 @@ class Builder {
 
 Function read_function(const Name& name, std::optional<Stands> as) {
   const auto c = file_of(name.file);
-  return Builder(name, *c, as).built();
+  auto f = Builder(name, *c, as, false).built();
+  if (as.value_or(Stands::fresnel) != Stands::fresnel || !depends_on_voh_only(f)) return f;
+  return Builder(name, *c, as, true).built();
 }
 
 std::vector<Entry> list_functions(const std::string& file) {

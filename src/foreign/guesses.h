@@ -24,6 +24,8 @@ Stands stands_for(const Function&);
 /// True of a value of one cosine that is 1 at grazing angles and less along the normal, where its name or the cosine's does not say
 /// that it is of the surface: a Fresnel term.  An albedo of NoV may have such values, too.
 bool gives_fresnel(const Function&);
+/// True of a Fresnel term by vectors: two of light, view and half vector, of which only VoH changes its value.
+bool depends_on_voh_only(const Function&);
 /// Sets whether turning the surface changes a value, and what the value includes of what the function stands for.
 /// \throws Error  wrong usage of what --includes says
 void guess_includes(Function&);

@@ -90,11 +90,13 @@ class Includes {
     });
   }
   /// True of a masking function that gives G: 1 along the normal and never more; a V without its 4 is 1 there, too, and more elsewhere.
+  /// One whose name says G is G, too, where it falls towards the horizon, as no V does.
   bool gives_g(const std::vector<double>& p) const {
     const auto at = [&](double theta_l, double theta_v) {
       return value_of(f_, p, angles_between(theta_l, 1, theta_v, 0))[0];
     };
-    constexpr double steep = 1.3, same = 1e-3;
+    constexpr double steep = 1.3, same = 1e-3, much = 0.9;
+    if (plain(f_.name.function).starts_with("g") && at(steep, steep) < much * at(0, 0)) return true;
     return at(0, 0) > 0.6 && !(std::fmax(at(steep, steep), at(0, steep)) > at(0, 0) * (1 + same));
   }
   void includes_of_lobe(const std::vector<std::vector<double>>& settings) {

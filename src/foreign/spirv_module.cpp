@@ -78,6 +78,19 @@ std::vector<std::size_t> SpirvModule::globals_of(std::vector<Id> functions) cons
   return {globals.begin(), globals.end()};
 }
 
+bool SpirvModule::calls(Id caller, Id called) const {
+  std::vector<Id> all{caller};
+  std::set<Id> seen{caller};
+  for (std::size_t k = 0; k < all.size(); ++k)
+    for (const auto& block : functions_.at(all[k]).blocks)
+      for (const auto& i : block.code) {
+        if (i.op != spv::OpFunctionCall) continue;
+        if (i.in[0] == called) return true;
+        if (functions_.contains(i.in[0]) && seen.insert(i.in[0]).second) all.push_back(i.in[0]);
+      }
+  return false;
+}
+
 void SpirvModule::declare(const Instruction& i, SpirvFunction*& f) {
   switch (i.op) {
     case spv::OpName:

@@ -56,6 +56,8 @@ class SpirvModule {
   const std::vector<Instruction>& globals() const { return globals_; }
   /// Places among globals() of what some functions refer to, with what they call: ascending.
   std::vector<std::size_t> globals_of(std::vector<Id> functions) const;
+  /// Whether one function calls another, maybe by way of others.
+  bool calls(Id caller, Id called) const;
   /// Functions of that name without a parameter, which a compiler puts the values of globals into.
   const std::vector<Id>& mains() const { return mains_; }
   const SpirvType& type(Id id) const { return types_.at(id); }

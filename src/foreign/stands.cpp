@@ -43,6 +43,27 @@ bool differ(double a, double b) {
 
 namespace {
 
+/// True of values that are 1 along the normal and never more, whatever the parameters: G by vectors, which has its half vector, too.
+bool gives_whole_g(const Function& f) {
+  std::vector<std::vector<double>> settings{defaults_of(f)};
+  for (std::size_t k = 0; k < f.parameters.size(); ++k)
+    for (const double end : {f.parameters[k].range.low, f.parameters[k].range.high}) {
+      settings.push_back(settings[0]);
+      settings.back()[k] = end;
+    }
+  constexpr double same = 1e-3;
+  return std::ranges::all_of(settings, [&](const std::vector<double>& p) {
+    const double along = value_of(f, p, angles_between(0, 0, 0, 0))[0];
+    if (!(std::abs(along - 1) < same)) return false;
+    for (const double l : {0.3, 0.9, 1.4})
+      for (const double v : {0.3, 0.9, 1.4}) {
+        const double g = value_of(f, p, angles_between(l, 2, v, 0))[0];
+        if (!(g >= 0) || !(g <= 1 + same)) return false;
+      }
+    return true;
+  });
+}
+
 /// True of a value that is 1/4 along the normal, or 1 where the 4 stands elsewhere, and only grows towards the horizon: V.
 /// \param between  azimuth from light to view
 bool gives_v(const Function& f, double between) {
@@ -67,6 +88,8 @@ Stands stands_for(const Function& f) {
   const bool half = reads_angle(f, "noh") || reads_angle(f, "sin2_theta_h") ||
                     reads_angle(f, "xoh") || reads_angle(f, "yoh");
   if (half && !l && !v && !facing && !frame) return Stands::distribution;
+  const auto& said = f.name.reading.includes;
+  if (said && (*said == "g" || *said == "v") && f.programs.size() == 1) return Stands::masking;
   const bool of_facing = facing && !l && !v && !half && !frame;
   const std::string n = plain(f.name.function);
   const bool named = n.starts_with("v") || n.starts_with("g") || n.find("smith") != n.npos ||
@@ -87,11 +110,65 @@ Stands stands_for(const Function& f) {
       f.programs.size() == 1 &&
       !differ(value_of(f, defaults_of(f), angles_between(0, 0, 0, 0))[0], 0.25))
     return Stands::masking;  // the V of G = NoL NoV
+  const bool is_g_by_name = named || f.name.function.ends_with('G') || n.find("torrance") != n.npos;
+  if (l && v && is_g_by_name && f.programs.size() == 1 && n.find("diffuse") == n.npos &&
+      gives_whole_g(f))
+    return Stands::masking;
   const bool may_be = (l || v) && (!frame || (of_cosines && !half && !facing)) &&
                       f.programs.size() == 1 && n.find("diffuse") == n.npos;
   return may_be && (named || (l && v && of_cosines && !half && !facing && gives_v(f, 0)))
              ? Stands::masking
              : Stands::lobe;
+}
+
+namespace {
+
+bool is_fresnel_by_name(const Function& f) {
+  const std::string n = plain(f.name.function);
+  return n.find("fresnel") != n.npos || n.find("schlick") != n.npos;
+}
+
+/// Light and view with a half vector of that zenith angle, turned about it.
+std::array<double, 11> angles_about(double theta_h, double voh, double turn) {
+  const double x = std::sin(theta_h), z = std::cos(theta_h), s = std::sqrt(1 - voh * voh);
+  const std::array across{s * std::cos(turn) * z, s * std::sin(turn), -s * std::cos(turn) * x};
+  const std::array l{voh * x + across[0], across[1], voh * z + across[2]};
+  const std::array v{voh * x - across[0], -across[1], voh * z - across[2]};
+  return {l[2], v[2], z, voh, x * x, x, 0, l[0], l[1], v[0], v[1]};
+}
+
+}  // namespace
+
+bool depends_on_voh_only(const Function& f) {
+  const auto takes = [&](std::string_view what) {
+    return std::ranges::find(f.arguments, what, &Argument::stands_for) != f.arguments.end();
+  };
+  const bool half = takes("H"), l = takes("L"), v = takes("V");
+  if (half ? !l && !v : !l || !v) return false;
+  const bool named = is_fresnel_by_name(f) || f.name.function.starts_with("F_");
+  if (!named && (!half || takes("N"))) return false;
+  const auto p = defaults_of(f);
+  constexpr double grazing = 1e-6, same = 1e-3;
+  std::vector<double> last;
+  bool varies = false;
+  for (const double voh : {grazing, 0.2, 0.5, 0.8, 0.95}) {
+    std::vector<double> here;
+    for (const double theta : {0.05, 0.1})
+      for (const double turn : {0.0, 1.0, 2.5}) {
+        const auto value = value_of(f, p, angles_about(theta, voh, turn));
+        if (here.empty()) here = value;
+        for (std::size_t c = 0; c < value.size(); ++c)
+          if (!std::isfinite(value[c]) || std::abs(value[c] - here[c]) > 1e-6 * std::abs(here[c]))
+            return false;
+      }
+    for (const double x : here) {
+      if (!named && (!(x >= 0) || !(x <= 1 + same))) return false;
+      if (!named && voh == grazing && !(x > 1 - same)) return false;
+    }
+    varies = varies || (!last.empty() && differ(last[0], here[0]));
+    last = here;
+  }
+  return varies;
 }
 
 bool gives_fresnel(const Function& f) {
@@ -104,9 +181,7 @@ bool gives_fresnel(const Function& f) {
         return a.stands_for != "parameter" && (a.stands_for.size() == 1 || said.contains(a.name));
       }))
     return false;
-  const std::string n = plain(f.name.function);
-  const bool is_fresnel = n.find("fresnel") != n.npos || n.find("schlick") != n.npos;
-  if (!is_fresnel && std::ranges::none_of(f.arguments, [](const Argument& a) {
+  if (!is_fresnel_by_name(f) && std::ranges::none_of(f.arguments, [](const Argument& a) {
         return a.stands_for != "parameter" && plain(a.name).starts_with("cos");
       }))
     return false;

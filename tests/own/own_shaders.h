@@ -75,7 +75,8 @@ struct OwnSlips {
     const OwnModel own(text, reading);
     model = nearest_model(own.term, why);
     const bool guessed_pi = own.function.includes.find("pi") != std::string::npos;
-    const auto parts = audit_parts(own.term, own.albedo, model, guessed_pi);
+    const auto parts =
+        audit_parts(own.term, own.albedo, model, model && is_sheen(*model), guessed_pi);
     highlight = parts.highlight;
     auto all = parts.slips;
     if (model)
