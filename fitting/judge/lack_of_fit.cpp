@@ -367,6 +367,11 @@ LackOfFit lack_of_all(
     m.too_few = left.values.size() <= p.free.size();
     m.note = m.too_few ? "no more values than unknowns"
                        : "what is left is no more than the values' own rounding";
+    if (const auto moved = moved_by_rounding(left); !moved.empty()) {
+      found.moved_by_rounding.resize(p.free.size());
+      for (std::size_t u = 0; u < moved.size(); ++u)
+        found.moved_by_rounding[p.free.index(left.slots[u])] = moved[u];
+    }
     return found;
   }
   // Of all values, noise is as much less as there are more of them than were looked at; what values
@@ -458,7 +463,8 @@ LackOfFit lack_of_fit(
 
 double LackOfFit::moved(std::size_t i) const {
   const auto of = [&](const std::vector<double>& all) { return all.empty() ? 0 : all[i]; };
-  return std::hypot(of(moved_by_outliers), of(moved_by_noise), of(moved_by_scale));
+  return std::hypot(std::hypot(of(moved_by_outliers), of(moved_by_noise), of(moved_by_scale)),
+                    of(moved_by_rounding));
 }
 
 void find_dark_bias(LackOfFit& found,
@@ -520,7 +526,7 @@ void widen(Uncertainty& u, const LackOfFit& l, std::span<const double> seen_agai
       wider = with_gains(l, i, wider, u[i].freedom);
       u[i].t = students_t_quantile(0.975, std::max(1.0, u[i].freedom));
     }
-    u[i].variance *= wider * wider / (e * e);
+    u[i].variance = e > 0 ? u[i].variance * (wider * wider / (e * e)) : wider * wider;
     e = wider;
   }
 }

@@ -44,6 +44,8 @@ struct LackOfFit {
   std::vector<double> moved_by_noise = {};
   /// How far each free parameter moves where the values' scale is free, see moved_by_scale().
   std::vector<double> moved_by_scale = {};
+  /// How far each free parameter may be off by what the digits leave out of all values alike, see moved_by_rounding().
+  std::vector<double> moved_by_rounding = {};
   /// Part of a parameter's error that is neither noise nor misfit.
   double moved(std::size_t i) const;
 };

@@ -1,12 +1,13 @@
 #include "fitting/judge/left_over.h"
 
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <map>
 #include <numeric>
-#include <set>
-#include <tuple>
+#include <unordered_set>
 #include <utility>
 
 #include "base/quantile.h"
@@ -133,15 +134,26 @@ class Readings {
   explicit Readings(bool has_frame) : has_frame_(has_frame) {}
   /// True the first time.
   bool is_new(const Angles<double>& a, std::size_t channel, double y) {
-    if (has_frame_) return true;  // to which directions of one half vector differ
-    const auto place = [](double cosine) { return std::lround(1e8 * cosine); };
+    if (has_frame_) return true;  // mirrored directions differ
+    const auto place = [](double cosine) { return std::llround(1e8 * cosine); };
     const auto [low, high] = std::minmax(a.nol, a.nov);
-    return seen_.emplace(place(low), place(high), place(a.voh), channel, y).second;
+    return seen_
+        .insert({place(low), place(high), place(a.voh), static_cast<std::int64_t>(channel),
+                 std::bit_cast<std::int64_t>(y)})
+        .second;
   }
 
  private:
+  using Reading = std::array<std::int64_t, 5>;
+  struct Hash {
+    std::size_t operator()(const Reading& r) const {
+      std::uint64_t h = 0;
+      for (const std::int64_t x : r) h = (h ^ static_cast<std::uint64_t>(x)) * 0x9e3779b97f4a7c15U;
+      return static_cast<std::size_t>(h ^ (h >> 32));
+    }
+  };
   bool has_frame_;
-  std::set<std::tuple<long, long, long, std::size_t, double>> seen_;
+  std::unordered_set<Reading, Hash> seen_;
 };
 
 }  // namespace

@@ -588,6 +588,22 @@ std::vector<double> StepBeside::damped(double by) const {
   return {step.begin(), step.end()};
 }
 
+std::vector<double> moved_by_rounding(const Left& left) {
+  constexpr double arithmetic = 1e-6;  // of f: below it digits are no table's
+  double squares = 0, rounded = 0;
+  for (const auto& v : left.values) {
+    squares += v.r * v.r;
+    if (v.rounding > arithmetic * v.change) rounded += v.rounding * v.rounding;
+  }
+  if (!(squares < rounded)) return {};
+  const Projected projected(left, {});
+  VectorXd moves = VectorXd::Zero(index(left.slots.size()));
+  for (std::size_t i = 0; i < left.values.size(); ++i)
+    if (const auto& v = left.values[i]; v.active > 0) moves += v.rounding * projected.influence(i);
+  moves = moves.cwiseAbs() * std::sqrt(1 - squares / rounded);
+  return {moves.begin(), moves.end()};
+}
+
 std::vector<double> moved_by_gains(const Left& left, SharedAngle axis) {
   const Projected projected(left, {});
   const Clusters angles(left, axis);

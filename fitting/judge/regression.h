@@ -75,4 +75,8 @@ StepBeside step_beside(const Left&, const std::vector<SharedAngle>& gains);
 /// Standard errors of the unknowns by a gain for each angle, whose standard error is 1 in ln f.
 std::vector<double> moved_by_gains(const Left&, SharedAngle);
 
+/// Standard errors of the unknowns by what digits leave out of all values alike.  Residuals show what they leave out of each: where
+/// these are smaller, the rest is shared.  Empty where nothing is.
+std::vector<double> moved_by_rounding(const Left&);
+
 }  // namespace gonio::misfit

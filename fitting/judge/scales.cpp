@@ -8,7 +8,8 @@ namespace gonio::misfit {
 namespace {
 
 constexpr double chance_of_scales = 0.05;
-constexpr std::size_t few_to_scale = 5;  ///< angles, of which none can run smoothly
+constexpr std::size_t few_to_scale =
+    7;  ///< angles, of which none can run smoothly, see are_smooth()
 constexpr double most_between_few = 0.045;
 constexpr std::size_t most_to_scale = 1 << 13;  ///< values looked at
 

@@ -383,6 +383,15 @@ void round_to_digits(Table& t, int digits) {
     for (double& v : plane) v = std::stod(fmt::format("{:.{}g}", v, digits));
 }
 
+TEST(LackOfFit, WhatDigitsLeaveOutOfAllValuesAlikeIsInTheInterval) {
+  Table t = synthesize(test::bind("lambert", "kd=0.5", 1), {.layout = Layout::in_plane});
+  round_to_digits(t, 2);  // 0.159 is 0.16, everywhere
+  const auto& kd = test::parameter(fit_of(t, "lambert"), "kd");
+  EXPECT_LT(kd.ci95_low[0], 0.5);
+  EXPECT_GT(kd.ci95_high[0], 0.5);
+  EXPECT_LT(kd.ci95_high[0] - kd.ci95_low[0], 0.1);
+}
+
 TEST(LackOfFit, OfValuesOfFewDigitsIsToldWhereItExceedsThemByFar) {
   Table t = synthesize(test::bind("ggx/smith_ggx.correlated/schlick", "alpha=0.1,f0=0.5", 3),
                        {.layout = Layout::in_plane, .noise = 0.02});
