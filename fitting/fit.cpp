@@ -115,7 +115,9 @@ std::optional<BoundModel> take_diffuse_alone(FitDocument& d,
   if (holds_lobe) return {};  // what it costs to hold it is what was asked
   d.cost = alone.cost;
   d.residuals = std::move(alone.residuals);
-  d.misfit = std::move(alone.misfit);
+  if (alone.misfit.told ||
+      !d.misfit.too_few)  // values too few for the model that was asked for say no more of this
+    d.misfit = std::move(alone.misfit);
   d.physics = std::move(alone.physics);
   return std::move(of_diffuse.model);
 }

@@ -126,44 +126,49 @@ std::optional<OddAngle> odd_angle(const Left& left, const Sampling& s) {
 
 /// Regressions that decide, the first of which is of single values where there is one.
 struct Tests {
+  /// What the residuals are regressed on: smooth functions, which all channels follow alike, one channel against the others, or
+  /// harmonics.  A tenth of the chance is left to each of the last two, which seldom say anything.
+  enum class Kind { alike, apart, azimuth };
   struct One {
     Regression regression;
     bool clustered;
-    std::size_t apart = 0;  ///< of so many of channels apart; 0: of all alike
-
-    /// Probability by chance that one of all tests shows as much.  A tenth of the chance is left to channels apart, which seldom differ.
-    double p_of(std::size_t alike) const {
-      constexpr std::size_t tenth = 10;
-      return std::min(1.0, regression.p * static_cast<double>(apart ? tenth * apart : alike));
-    }
+    Kind kind = Kind::alike;
   };
   std::vector<One> all;
   std::vector<Scales::Scaled> scaled;
   double p_of_scales = 1, of_scales = 0;  ///< probability by chance, and their mean square
   bool are_a_models = false;              ///< these scales are no instrument's
+
+  /// Probability by chance that one of all tests of that kind shows as much.
+  double p_of(const One& one) const {
+    constexpr double tenth = 10;
+    const auto alike = static_cast<double>(std::ranges::count(all, one.kind, &One::kind));
+    return std::min(1.0, one.regression.p * alike * (one.kind == Kind::alike ? 1 : tenth));
+  }
 };
 Tests test(const Left& left, bool measured, bool by_angle) {
   Tests t;
   const auto add = [&](const std::vector<SharedAngle>& gains,
                        std::optional<SharedAngle> clustered) {
     const bool is_first = t.all.empty();
-    t.all.push_back({regress(left, gains, clustered), clustered.has_value()});
+    const auto add_one = [&](Tests::Kind kind, std::optional<std::size_t> apart,
+                             const std::optional<Harmonics>& harmonics) {
+      t.all.push_back(
+          {regress(left, gains, clustered, false, apart, harmonics), clustered.has_value(), kind});
+    };
+    add_one(Tests::Kind::alike, {}, {});
     // A width that depends on the channel leaves residuals that cancel over the channels.
     constexpr std::size_t most_apart = 4;
     if (is_first && left.unknowns.size() > 1 && left.unknowns.size() <= most_apart)
-      for (std::size_t c = 0; c < left.unknowns.size(); ++c)
-        t.all.push_back({regress(left, gains, clustered, false, c), clustered.has_value(),
-                         left.unknowns.size()});
+      for (std::size_t c = 0; c < left.unknowns.size(); ++c) add_one(Tests::Kind::apart, c, {});
     for (std::size_t k = 0; left.turned && k < azimuths.size(); ++k) {
       Harmonics harmonics{azimuths[k]};
-      t.all.push_back(
-          {regress(left, gains, clustered, false, {}, harmonics), clustered.has_value()});
+      add_one(Tests::Kind::azimuth, {}, harmonics);
       if (!t.all.back().regression.limited) continue;
       // A wave that has one order needs few angles.
       for (int order = Harmonics{}.first; order <= Harmonics{}.last; ++order) {
         harmonics.first = harmonics.last = order;
-        t.all.push_back(
-            {regress(left, gains, clustered, false, {}, harmonics), clustered.has_value()});
+        add_one(Tests::Kind::azimuth, {}, harmonics);
       }
     }
   };
@@ -209,13 +214,11 @@ Verdict verdict_of(const Tests& tests, const Left& left, double more, bool retro
   Misfit& m = v.misfit;
   double& excess = v.excess;
   const Regression& first = tests.all[0].regression;
-  const auto alike =
-      static_cast<std::size_t>(std::ranges::count(tests.all, 0U, &Tests::One::apart));
   double least = 1;
   for (const auto& one : tests.all) {
-    const auto& [r, clustered, apart] = one;
-    const double by_luck = one.p_of(alike);
-    if (!r.tested || (apart && !(by_luck < significant))) continue;
+    const auto& [r, clustered, kind] = one;
+    const double by_luck = tests.p_of(one);
+    if (!r.tested || (kind != Tests::Kind::alike && !(by_luck < significant))) continue;
     if (!v.likeliest || by_luck < least) v.likeliest = &r, least = by_luck;
     m.size = m.tested ? std::max(m.size, r.size) : r.size;
     m.tested = true;
@@ -250,16 +253,25 @@ Verdict verdict_of(const Tests& tests, const Left& left, double more, bool retro
 
 /// What a fit would leave that knew the scales: values that they lift or lower pull the fit to where the model bends other than its
 /// derivatives say, most where unknowns and a scale do nearly the same, as a metal's two indices.
-Left left_beside(const Sampling& s,
-                 const Problem& p,
-                 Fitted f,
-                 const Tests& tests,
-                 Left left,
-                 TableFacts& facts) {
+Left left_beside(
+    const Sampling& s, const Problem& p, Fitted f, const Tests& tests, TableFacts& facts) {
   std::vector<SharedAngle> gains;
   for (const auto& scaled : tests.scaled) gains.push_back(scaled.of);
   constexpr int tries = 24;
   constexpr double settled = 1e-4, most_damped = 1e6, towards_bound = 0.9;
+  constexpr double inside = 0.1, near_bound = 0.01;  // of the range
+  // What stands at a bound is no unknown: it begins inside, and is put back where it goes there
+  // again.
+  std::vector<std::size_t> at_bound;  // slots
+  for (const std::size_t slot : p.free.slots()) {
+    const std::size_t i = p.free.index(slot);
+    const double low = p.bounds.low[i], high = p.bounds.high[i];
+    double& x = f.model.values[slot];
+    if (x > low && x < high) continue;
+    at_bound.push_back(slot);
+    x = x <= low ? std::lerp(low, high, inside) : std::lerp(high, low, inside);
+  }
+  Left left = left_over(s, p, f, facts);
   double damping = 1e-3;
   auto step = step_beside(left, gains);
   for (int k = 0; k < tries && damping < most_damped; ++k) {
@@ -267,7 +279,7 @@ Left left_beside(const Sampling& s,
     const auto by = step.damped(damping);
     for (std::size_t u = 0; u < left.slots.size(); ++u) {
       const std::size_t slot = left.slots[u], i = p.free.index(slot);
-      double& x = there.model.values[slot];  // at a bound it would be no unknown
+      double& x = there.model.values[slot];
       x += std::clamp(by[u], towards_bound * (p.bounds.low[i] - x),
                       towards_bound * (p.bounds.high[i] - x));
     }
@@ -282,6 +294,15 @@ Left left_beside(const Sampling& s,
     f = std::move(there), left = std::move(at), step = std::move(next);
     if (is_settled) break;
   }
+  for (const std::size_t slot : at_bound) {
+    const std::size_t i = p.free.index(slot);
+    const double low = p.bounds.low[i], high = p.bounds.high[i];
+    double& x = f.model.values[slot];
+    x = x < std::lerp(low, high, near_bound)   ? low
+        : x > std::lerp(high, low, near_bound) ? high
+                                               : x;
+  }
+  left = left_over(s, p, f, facts);
   find_variances(left);
   return left;
 }
@@ -379,7 +400,7 @@ LackOfFit lack_of_all(
   const double more = std::max(1.0, samples_used / left.samples);
   Verdict verdict = verdict_of(tests, left, more, alone.has_value());
   if (verdict.misfit.told && !alone && !tests.scaled.empty()) {
-    const Left beside = left_beside(logs ? *logs : s, p, judged, tests, left, facts);
+    const Left beside = left_beside(logs ? *logs : s, p, judged, tests, facts);
     Tests there = test(beside, measured, by_angle);
     if (Verdict v = verdict_of(there, beside, more, false);
         !v.misfit.told && !there.scaled.empty()) {

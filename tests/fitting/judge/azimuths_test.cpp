@@ -5,10 +5,10 @@
 #include <cmath>
 #include <random>
 
+#include "brdf/model/evaluate.h"
 #include "fitting/fit.h"
 #include "fitting/support.h"
 #include "geometry/angles.h"
-#include "tables.h"
 
 #include <gtest/gtest.h>
 
@@ -32,7 +32,10 @@ Table turned(const BoundModel& truth, double noise) {
           l.phi_o_deg.push_back(phi);
         }
   t.where = std::move(l);
-  test::put_values(t, truth);
+  t.values.assign(1, {});
+  const SampleAngles at(t);
+  for (std::size_t i = 0; i < t.list()->theta_i_deg.size(); ++i)
+    t.values[0].push_back(evaluate(truth, std::vector{at.frame(i)})[0][0]);
   std::mt19937_64 random(1);
   std::normal_distribution<double> normal;
   for (auto& plane : t.values)

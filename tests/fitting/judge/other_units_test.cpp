@@ -21,6 +21,7 @@ FitDocument fit_of_scaled(const char* model, const char* settings, double scale)
   scale_values(t, scale);
   FitOptions o;
   o.model = model;
+  o.certificate = Certify::automatic;  // then units are tried
   return fit(t, o).document;
 }
 
