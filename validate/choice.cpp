@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <map>
 #include <utility>
 
 #include "base/error.h"
@@ -322,14 +323,23 @@ void share_parameters(const JsonReader& root, Choice& c) {
     if (has(own, p.first)) c.shipped.parameters.push_back(p);
   if (!c.has_reference) return;
   demand("reference_parameters", c.reference, others);
-  const auto shared = taken_by(c.reference);
+  auto shared = taken_by(c.reference);
+  std::map<std::string, std::string> said;  // a shader's baseColor is the reference's base_color
+  for (const auto& s : own)
+    if (const auto known = has(shared, s.name) ? "" : of_letters(c.reference.composed(), s.name);
+        !known.empty() && !has(shared, known)) {
+      shared.push_back(s);
+      shared.back().name = known;
+      said[known] = s.name;
+    }
   auto demanded = shared;
   if (has(own, "metallic") && !has(shared, "base_color"))  // a shader's own, beside its baseColor
     std::erase_if(demanded, [](const Setting& s) { return s.name == "metallic"; });
   demand("parameters", c.reference, demanded);
   for (const auto& s : shared) {
-    const bool is_own = has(own, s.name);
-    const auto at = root.at("parameters").at(s.name);
+    const auto renamed = said.find(s.name);
+    const bool is_own = has(own, s.name) || renamed != said.end();
+    const auto at = root.at("parameters").at(renamed == said.end() ? s.name : renamed->second);
     const auto known = is_own ? "" : of_letters(c.shipped.composed(), s.name);
     if (!known.empty() && !has(own, known))
       at.fail(fmt::format("{}, as {} has it", known, c.shipped.model));

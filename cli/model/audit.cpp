@@ -95,7 +95,9 @@ Exit run_file(const AuditCall& o) {
     throw wrong_usage("a shader is audited by itself: gonio audit FILE[:FUNCTION] [--json]");
   Progress progress(o.quiet);
   progress("auditing " + o.ids[0]);
-  const auto all = audit_file(read_as(o.ids[0], o.reading));
+  const auto all = audit_file(read_as(o.ids[0], o.reading), [&](const std::string& function) {
+    progress("auditing " + function);
+  });
   progress.clear();
   take_foreign_guesses();  // its own lines say them
   const bool any =
@@ -137,7 +139,10 @@ void add_audit(CommandLine& line) {
       "audit",
       "Measures what entries of the catalogue keep and break: normalisation, "
       "reciprocity, energy, range, and the distance to the form they stand for",
-      "gonio audit masking.schlick_ggx.direct\n  gonio audit --all --html audit.html", run);
+      "gonio audit masking.schlick_ggx.direct\n  gonio audit --all --html audit.html\n  gonio "
+      "audit "
+      "my.glsl:D_GGX",
+      run);
   c.option("ID", o->ids,
            "Terms, maps or models, as `gonio models` lists them; or a shader, FILE[:FUNCTION]");
   add_reading(c, o->reading);

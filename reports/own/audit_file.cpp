@@ -228,10 +228,12 @@ bool is_audited(const foreign::Function& f) {
   return f.stands != foreign::Stands::lobe || takes_light(f);
 }
 
-std::vector<FunctionAudit> audit_file(const std::string& name) {
+std::vector<FunctionAudit> audit_file(const std::string& name,
+                                      const std::function<void(const std::string&)>& begins) {
   std::vector<FunctionAudit> all;
   for (auto& f : file_functions(name).functions) {
     const bool is_named = !foreign::parse_name(name).function.empty();
+    if (f.function && begins) begins(f.entry.function);
     if (f.function) try {
         all.push_back(audit_function(f));
         continue;

@@ -2,6 +2,7 @@
 /// \file
 /// The audit of a person's file: which laws each function keeps, where it fails in half, what it costs, which form it is.
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -37,7 +38,9 @@ struct FunctionAudit {
 /// False of a function that takes no light: an argument of another name may be a cosine.
 bool is_audited(const foreign::Function&);
 /// Every function of a file, or the one that is named.
-std::vector<FunctionAudit> audit_file(const std::string& name);
+/// \param begins  called with the name of each function before it is audited
+std::vector<FunctionAudit> audit_file(
+    const std::string& name, const std::function<void(const std::string& function)>& begins = {});
 std::string to_json(const std::vector<FunctionAudit>&);
 std::string text_of(const FunctionAudit&);
 

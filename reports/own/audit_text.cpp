@@ -92,6 +92,7 @@ std::string to_json(const std::vector<FunctionAudit>& all) {
     j["darkest"] = e ? found(e->darkest) : Json();
     j["highlight"] = found(a.highlight);
     j["lowest"] = found(a.laws.lowest);
+    j["above_one"] = found(a.laws.above_one);
     j["not_finite"] = a.laws.not_finite;
     j["not_finite_at"] = a.laws.not_finite ? Json(a.laws.not_finite_at) : Json();
     j["half"] = a.half;
@@ -160,6 +161,9 @@ std::string text_of(const FunctionAudit& a) {
          r->value < 1e-6 ? "kept" : fmt::format("off by {:.2g} at {}", r->value, r->at));
   if (a.laws.lowest)
     line("negative", fmt::format("{:.3g} at {}", a.laws.lowest->value, a.laws.lowest->at));
+  if (a.laws.above_one)
+    line("above 1", fmt::format("{:.4g} at {}: it reflects more than all light",
+                                a.laws.above_one->value, a.laws.above_one->at));
   if (a.laws.not_finite)
     line("without a value", fmt::format("{} inputs, in double; the first at {}", a.laws.not_finite,
                                         a.laws.not_finite_at));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <string>
 
 #include "geometry/direction.h"
 #include "reports/own/nearest.h"
@@ -93,12 +94,16 @@ std::optional<HorizonGuard> guard_of(std::span<const Row> rows,
         amount = (kind == Kind::sum || kind == Kind::sum_of_v ? lost : lost + 1) / x;
       }
     if (!(amount > 0)) return {};
-    const HorizonGuard g{kind, amount};
-    bool is = true;
-    for (std::size_t k = 0; is && k < own.size(); ++k)
-      for (std::size_t i = 0; is && i < rows.size(); ++i)
-        is = std::abs(own[k][i] / (form[k][i] * g.left(rows[i], form[k][i])) - 1) < same_within;
-    if (is) return g;
+    // Where it takes little its amount is not known well: the roundest that does is the one that
+    // was written.
+    for (const int digits : {0, 1, 17}) {
+      const HorizonGuard g{kind, std::stod(fmt::format("{:.{}e}", amount, digits))};
+      bool is = true;
+      for (std::size_t k = 0; is && k < own.size(); ++k)
+        for (std::size_t i = 0; is && i < rows.size(); ++i)
+          is = std::abs(own[k][i] / (form[k][i] * g.left(rows[i], form[k][i])) - 1) < same_within;
+      if (is) return g;
+    }
   }
   return {};
 }

@@ -84,6 +84,12 @@ std::vector<Row> grazing() {
   return rows;
 }
 
+bool is_within_one(std::span<const Parameter> parameters, const Values& p) {
+  for (std::size_t k = 0; k < p.size(); ++k)
+    if (p[k] > 1 && (is_colour(parameters[k]) || is_f90(parameters[k]))) return false;
+  return true;
+}
+
 bool takes(const foreign::Function& f, std::string_view cosine, std::string_view vector) {
   return std::ranges::any_of(f.arguments, [&](const foreign::Argument& a) {
     return a.stands_for == cosine || a.stands_for == vector;
@@ -174,6 +180,7 @@ Laws laws_of(const foreign::Function& f, std::size_t term) {
   for (const auto& r : rows) other.push_back(auditing::exchanged(r));
   const auto horizon = role == Role::ndf || role == Role::fresnel ? std::vector<Row>{} : grazing();
   RowColumns at_rows(rows), at_other(other), at_horizon(horizon);
+  constexpr double above_by_rounding = 1e-5;  // some fits' own
   constexpr double below_by_rounding = 1e-12;  // as (1 − VoH)⁵ is where VoH rounds to more than 1
   const auto count_finite = [&](const std::vector<double>& v, const Values& p,
                                 const std::vector<Row>& at) {
@@ -194,6 +201,9 @@ Laws laws_of(const foreign::Function& f, std::size_t term) {
         const auto at = [&] {
           return auditing::joined(auditing::text(parameters, p), auditing::text(rows[i]));
         };
+        // A weight or an F90 above 1 is meant.
+        const bool is_above = role == Role::fresnel && v[i] > 1 + above_by_rounding;
+        if (is_above && is_within_one(parameters, p)) take_largest(a.above_one, v[i], at());
         if (v[i] < -below_by_rounding) take_smallest(a.lowest, v[i], at());
         const double size = std::max(std::abs(v[i]), std::abs(w[i]));
         const double off = std::abs(v[i] - w[i]);

@@ -16,10 +16,11 @@ namespace gonio {
 struct Laws {
   std::optional<FoundAt> normalisation;  ///< ∫ D cos θ dω, furthest from 1
   std::optional<FoundAt>
-      reciprocity;                ///< largest relative difference with light and view exchanged
-  std::optional<FoundAt> lowest;  ///< below 0, else none
-  std::size_t not_finite = 0;     ///< of the inputs looked at, in double
-  std::string not_finite_at;      ///< the first of them
+      reciprocity;                   ///< largest relative difference with light and view exchanged
+  std::optional<FoundAt> lowest;     ///< below 0, else none
+  std::optional<FoundAt> above_one;  ///< of a Fresnel term, else none
+  std::size_t not_finite = 0;        ///< of the inputs looked at, in double
+  std::string not_finite_at;         ///< the first of them
   /// Parameters, and of a term cosines, that it reads and that change nothing.
   std::vector<std::string> without_effect;
   bool fails_behind = false;  ///< a whole model has no value for a light behind the horizon

@@ -8,6 +8,7 @@
 
 #include "brdf/in_number/number.h"
 #include "geometry/direction.h"
+#include "integrate/albedo/normalisation.h"
 #include "reports/finding/words.h"
 #include "reports/measure/samples.h"
 #include "reports/own/laws.h"
@@ -383,12 +384,20 @@ std::vector<std::string> likely_slips(std::size_t term, const NearestForm& n) {
       all.push_back(
           fmt::format("{} stands where {}² belongs: the form's alpha is √{} here", w, w, w));
   }
-  if (n.norms)
+  if (n.norms) {
+    Range norms{1e300, 0};
+    for (const auto& p : auditing::combinations(known_parameters(term), [](const Parameter& q) {
+           return Values{low_of(q), usual_of(q), high_of(q)};
+         })) {
+      const double norm = normalisation(term, p).value;
+      norms = {std::min(norms.low, norm), std::max(norms.high, norm)};
+    }
     all.push_back(
-        fmt::format("the form is right and its norm is not: it is {:.3g} to {:.3g} times that of a "
-                    "distribution, whose ∫ D cos θ is 1",
-                    n.norms->low, n.norms->high));
-  else if (std::abs(n.factor - 1) > same_within && own.role() != Role::diffuse)
+        fmt::format("the form is right and its norm is not: ∫ D cos θ is {:.3g} to {:.3g}, "
+                    "expected 1",
+                    norms.low, norms.high));
+  }
+  if (!n.norms && std::abs(n.factor - 1) > same_within && own.role() != Role::diffuse)
     all.push_back(of_each && std::abs(n.factor / 0.25 - 1) < same_within
                       ? "4 times too small: the 2 of each G1 = 2 c/(c + …) is missing"
                       : factor_text(n.factor));

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <limits>
 #include <numbers>
 
 #include "brdf/catalogue/foreign_terms.h"
@@ -126,8 +127,24 @@ class Search {
         is_one = is_one && std::abs(white_.back()[i] - other[i]) <= same * std::abs(other[i]);
       is_guarded_.push_back(is_one);
     }
-    peak_ = ends_of(white_[0])[1];
+    take_cap();
+    peak_ = 0;
+    for (std::size_t i = 0; i < rows_.size(); ++i)
+      if (white_[0][i] > white_[0][peak_] && !is_capped(white_[0][i])) peak_ = i;
   }
+  /// The value that many have and none exceeds: a clamp's.
+  void take_cap() {
+    double most = 0;
+    for (const auto& v : white_) most = std::max(most, *std::ranges::max_element(v));
+    constexpr double same = 1e-12;
+    constexpr std::ptrdiff_t many = 4;
+    cap_ = most * (1 - same);
+    std::ptrdiff_t count = 0;
+    for (const auto& v : white_)
+      count += std::ranges::count_if(v, [&](double x) { return is_capped(x); });
+    if (count < many) cap_ = std::numeric_limits<double>::infinity();
+  }
+  bool is_capped(double value) const { return value >= cap_; }
 
   bool scales_with_f0() const {
     const auto half = highlight(0.5, widths_[0], rows_);
@@ -281,6 +298,7 @@ class Search {
       const double least = of_peak * std::abs(*std::ranges::max_element(white_[k]));
       for (std::size_t i = 0; i < rows_.size() && !is_guarded_[k]; ++i) {
         const double w = factor * wanted(k, i), off = white_[k][i] - w;
+        if (is_capped(white_[k][i]) && is_capped(w)) continue;
         constexpr double loose = 5e-3;
         if (std::abs(off) <= (is_loose_ ? loose : same_within) * std::abs(w) + least) continue;
         if (k == 0 || !(off < 0)) return 0;
@@ -323,12 +341,16 @@ class Search {
     n.drop = drop_of([&](const Row& r) { return left_at(widths_[0], r); }, guard_);
     n.shape = d.id(), n.masking = v.id();
     auto spec = model_of_lobe(n.shape, n.masking, "schlick");
-    if (const auto form = take_fresnel(n, over_form, v.values[0])) {
+    const auto fresnel = take_fresnel(n, over_form, v.values[0]);
+    if (const auto form = fresnel) {
       const std::string id(catalogue()[*form].id());
       spec.lobes[0].fresnel = id.substr(id.find('.') + 1);
     }
     n.keeps_lambert = lambert_ > 0;
-    if (n.keeps_lambert || take_diffuse(n)) spec.diffuse = "lambert";
+    if (n.keeps_lambert)
+      spec.diffuse = "lambert";
+    else
+      spec.diffuse = diffuse_of(n, fresnel);
     n.spec = to_text(spec);
     const auto channels = channels_of(*foreign_term(term_)->function);
     n.operations = operations_in(n.spec, channels);
@@ -395,8 +417,8 @@ class Search {
     return least > 0 && most > much * least;
   }
 
-  /// Sets what is said of the diffuse part; true where it is Lambert's.
-  bool take_diffuse(NearestModel& n) const {
+  /// Sets what is said of the diffuse part, and returns that of ours which it is: Lambert's, maybe under the highlight's F, or none.
+  std::string diffuse_of(NearestModel& n, const std::optional<std::size_t>& fresnel) const {
     const bool has_colour = !colours_.diffuse.empty();
     Values with, without;
     const auto at = [&](Others others) {
@@ -411,14 +433,27 @@ class Search {
     } else {
       with = at(Others::usual), without = at(Others::low);
     }
-    double least = 1e300, most = -1e300;
-    for (std::size_t i = 0; i < rows_.size(); ++i) {
-      least = std::min(least, with[i] - without[i]);
-      most = std::max(most, with[i] - without[i]);
-    }
-    const bool is_lambert = least > 0 && most < least * (1 + same_within);
-    n.lacks_diffuse = !is_lambert && most > same_within;
-    return is_lambert;
+    double largest = 0;
+    const auto is_even = [&](const auto& share) {
+      double least = 1e300, most = -1e300;
+      for (std::size_t i = 0; i < rows_.size(); ++i) {
+        const double part = with[i] - without[i];
+        largest = std::max(largest, part);
+        least = std::min(least, part / share(i));
+        most = std::max(most, part / share(i));
+      }
+      return least > 0 && most < least * (1 + same_within);
+    };
+    if (is_even([](std::size_t) { return 1.0; })) return "lambert";
+    n.lacks_diffuse = largest > same_within;
+    if (!n.lacks_diffuse || !fresnel || colours_.f0.empty() || colours_.metallic) return "";
+    Values p;
+    for (const auto& q : catalogue()[*fresnel].parameters) p.push_back(q.start);
+    p[0] = low_of(own_[colours_.f0[0]]);
+    const auto f = values_in(Number::double_, *fresnel, p, as_taken(rows_));
+    if (!is_even([&](std::size_t i) { return 1 - f[i]; })) return "";
+    n.lacks_diffuse = false;
+    return "lambert.coupled";
   }
 
   std::size_t term_;
@@ -436,7 +471,8 @@ class Search {
   const Disguise* disguise_ = nullptr;
   ByWidth white_;
   bool is_loose_ = false;
-  std::size_t peak_ = 0;                      ///< row of the largest at the widest
+  std::size_t peak_ = 0;  ///< row of the largest at the widest that no clamp holds
+  double cap_ = 0;        ///< the largest value that a clamp leaves
   std::array<std::size_t, 2> cosine_ends_{};  ///< rows of the largest and of the least NoL NoV
   std::vector<bool> is_guarded_;              ///< the value there does not depend on the width
   std::optional<HorizonGuard> guard_;         ///< that the forms looked at have

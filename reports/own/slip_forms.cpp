@@ -34,6 +34,8 @@ double beckmann_of(double a, double c2, double c4) {
 }
 constexpr const char* squared_twice = "NoH is squared twice: NoH⁴ stands where NoH² belongs";
 constexpr std::array of_distribution{
+    SlipForm{[](double a, const Row&) { return a * a / pi; },
+             "NoH is 0 everywhere: a clamp holds it, as min in the place of max", "ggx"},
     SlipForm{
         [](double a, const Row& r) { return a * a / (pi * (r.noh * r.noh * (a * a - 1) + 1)); },
         "the denominator of GGX is not squared", "ggx"},

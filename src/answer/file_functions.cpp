@@ -132,11 +132,16 @@ FileFunctions file_functions(const std::string& token) {
   FileFunctions all{name.file, {}, {}};
   auto entries = foreign::list_functions(name.file);
   if (!name.function.empty())
-    std::erase_if(entries, [&](const auto& e) { return e.function != name.function; });
+    std::erase_if(entries,
+                  [&](const auto& e) { return e.function != name.function || e.is_shadowed; });
   if (entries.empty()) foreign::read_function(name);  // says what is wrong
   Said said{name.reading};
   for (auto& e : entries) {
     FileFunction f{std::move(e), {}, {}};
+    if (f.entry.is_shadowed) {
+      all.functions.push_back(std::move(f));
+      continue;
+    }
     foreign::Name one{name.file, f.entry.function};
     const auto read = [&] {
       try {

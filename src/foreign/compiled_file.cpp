@@ -47,7 +47,10 @@ void take_functions(Compiled& c) {
     if (name.empty()) continue;
     const bool is_value = m.is_of_numbers(f.result) && m.type(f.result).op != spirv_struct;
     const auto size = is_value ? m.size(f.result) : 0;
-    if (size == 1 || size == 3 || size == 4) c.functions[name] = id;
+    if (size == 1 || size == 3 || size == 4) {
+      const auto [known, is_new] = c.functions.try_emplace(name, id);
+      if (!is_new) c.shadowed.emplace_back(name, std::exchange(known->second, id));
+    }
     if (m.type(f.result).op == spirv_void) c.void_functions[name] = id;
   }
 }
@@ -66,7 +69,7 @@ int line_of_array(std::string_view text) {
 }
 
 std::shared_ptr<const Compiled> compiled(Source source) {
-  auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr, {}, {}});
+  auto c = std::make_shared<Compiled>(Compiled{std::move(source), nullptr, {}, {}, {}});
   try {
     c->module = std::make_unique<SpirvModule>(compile(c->source));
     take_functions(*c);

@@ -5,6 +5,8 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "foreign/program.h"
 #include "foreign/source.h"
@@ -18,8 +20,9 @@ inline constexpr std::uint32_t spirv_pointer = 32;
 struct Compiled {
   Source source;
   std::unique_ptr<const SpirvModule> module;
-  std::map<std::string, Id> functions;       ///< that give a number or a colour, by name
-  std::map<std::string, Id> void_functions;  ///< a stage's main among them
+  std::map<std::string, Id> functions;                 ///< that give a number or a colour, by name
+  std::map<std::string, Id> void_functions;            ///< a stage's main among them
+  std::vector<std::pair<std::string, Id>> shadowed{};  ///< whose name a later one has
 };
 
 /// The file, compiled once in a run.  \throws Error  bad input

@@ -288,16 +288,34 @@ class Builder {
     for (auto& i : p.inputs)
       if (!i.of_sample) i.index = place_.at(i.index);
   }
+  /// True of programs that compute the same in the same way, in whichever order their nodes stand.
   static bool is_same(const Program& a, const Program& b) {
-    const auto same_node = [](const Node& x, const Node& y) {
-      return x.op == y.op && x.kind == y.kind && x.a == y.a && x.b == y.b && x.c == y.c &&
-             (x.op != Op::constant || x.value == y.value);
+    if (a.outputs.size() != b.outputs.size()) return false;
+    std::vector<Ref> in_b(a.nodes.size(), nothing);
+    const auto pair_up = [&](Ref x, Ref y) {
+      if ((x < 0) != (y < 0)) return false;
+      if (x < 0) return true;
+      auto& known = in_b[static_cast<std::size_t>(x)];
+      if (known < 0) known = y;
+      return known == y;
     };
-    const auto same_input = [](const Input& x, const Input& y) {
-      return x.of_sample == y.of_sample && x.index == y.index && x.node == y.node;
+    const auto input_at = [](const Program& p, Ref node) {
+      return *std::ranges::find(p.inputs, node, &Input::node);
     };
-    return a.outputs == b.outputs && std::ranges::equal(a.nodes, b.nodes, same_node) &&
-           std::ranges::equal(a.inputs, b.inputs, same_input);
+    for (std::size_t k = 0; k < a.outputs.size(); ++k)
+      if (!pair_up(a.outputs[k], b.outputs[k])) return false;
+    // What a node is made of stands before it.
+    for (std::size_t k = a.nodes.size(); k-- > 0;) {
+      if (in_b[k] < 0) continue;
+      const Node &x = a.nodes[k], &y = b.nodes[static_cast<std::size_t>(in_b[k])];
+      if (x.op != y.op || x.kind != y.kind || (x.op == Op::constant && x.value != y.value) ||
+          !pair_up(x.a, y.a) || !pair_up(x.b, y.b) || !pair_up(x.c, y.c))
+        return false;
+      if (x.op != Op::input) continue;
+      const Input i = input_at(a, static_cast<Ref>(k)), j = input_at(b, in_b[k]);
+      if (i.of_sample != j.of_sample || i.index != j.index) return false;
+    }
+    return true;
   }
 
   /// Directions of the file's variables count as arguments where the function reads them.
@@ -376,6 +394,15 @@ std::vector<Entry> list_functions(const std::string& file) {
     } catch (const Error& error) {
       e.refused = error.what();
     }
+    all.push_back(std::move(e));
+  }
+  for (const auto& [name, id] : c->shadowed) {
+    Entry e{name, c->module->functions().at(id).line};
+    e.is_shadowed = true;
+    e.refused = bad_input(file, fmt::format("line {}", e.line), "a function whose name another has",
+                          fmt::format("a name of its own: {} means the one in line {}", name,
+                                      c->module->functions().at(named.at(name)).line))
+                    .what();
     all.push_back(std::move(e));
   }
   std::ranges::sort(all, {}, [](const Entry& e) { return std::pair(e.line, e.function); });

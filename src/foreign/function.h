@@ -90,6 +90,7 @@ struct Entry {
   int line = 0;
   std::string refused{};
   std::vector<std::string> arguments{};  ///< their names
+  bool is_shadowed = false;              ///< its name means another function
 };
 
 /// Files are compiled once in a run.  \throws Error  bad input with the line; wrong usage of a parameter without bounds

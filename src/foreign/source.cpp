@@ -216,7 +216,8 @@ Source source_of(const std::string& path, const std::string& content) {
   if (s.language == Language::spirv) return s;
   if (content.find('\0') != content.npos)
     throw bad_input(path, "the whole file", "bytes that are no text", "a shader's text");
-  const auto lines = split(content, '\n');
+  constexpr std::string_view mark = "\xEF\xBB\xBF";  // of UTF-8, which some editors write first
+  const auto lines = split(s.text.starts_with(mark) ? content.substr(mark.size()) : content, '\n');
   if (s.explorer) {
     read_explorer(s, lines);
     return s;

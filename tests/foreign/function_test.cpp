@@ -292,5 +292,58 @@ TEST(FunctionName, IsReadAndWritten) {
     EXPECT_NE(refusal([&] { parse_name(bad); }, Exit::usage), "") << bad;
 }
 
+TEST(Function, AFileMeansItsOnlyWholeModelAndOneOfSeveralIsToBeNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string masking =
+      "float smith(vec3 n, vec3 v, vec3 l) { return dot(n, v) * dot(n, l); }\n";
+  const std::string first = "float a(vec3 n, vec3 v, vec3 l) { return smith(n, v, l) + 1.0; }\n";
+  EXPECT_EQ(Written(masking + first).function().name.function, "a") << "what it calls is a part";
+  const auto why =
+      Written(masking + first + "float b(vec3 n, vec3 v, vec3 l) { return dot(n, l) + 2.0; }\n")
+          .refused("", Exit::usage);
+  EXPECT_HAS(why, "which function? its whole models are a, b; name one, as ");
+  EXPECT_EQ(Written("float g(vec3 n, vec3 v, vec3 l) { return dot(n, v); }\n" + masking +
+                    "float brdf(vec3 n, vec3 v, vec3 l) { return dot(n, l); }\n")
+                .function()
+                .name.function,
+            "brdf");
+}
+
+TEST(Function, OneWhoseNameALaterOneHasIsListedAsSuch) {
+  SKIP_WITHOUT_SHADERS;
+  const Written w(
+      "float D(float NoH, float a) { return a * NoH; }\nfloat D(float NoH, float ax, float ay) { "
+      "return D(NoH, ax * ay); }\n");
+  const auto all = list_functions(w.path);
+  ASSERT_EQ(all.size(), 2U);
+  EXPECT_TRUE(all[0].is_shadowed);
+  EXPECT_HAS(all[0].refused, "line 1: found a function whose name another has");
+  EXPECT_HAS(all[0].refused, "D means the one in line 2");
+  EXPECT_EQ(all[1].refused, "");
+}
+
+TEST(Function, AMarkOfUtf8BeforeATextIsNoPartOfIt) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_EQ(Written("\xEF\xBB\xBF// a 0 1 0.3\nfloat D(float NoH, float a) { return a * NoH; }\n")
+                .function()
+                .parameters[0]
+                .start,
+            0.3);
+}
+
+TEST(Function, ChannelsThatMixAColourWithANumberAreOneProgram) {
+  SKIP_WITHOUT_SHADERS;
+  const auto f = Written(
+                     "// base 0 1 0.5\n// metallic 0 1 0\nvec3 f(vec3 n, vec3 v, vec3 l, vec3 "
+                     "base, float metallic) { return mix(vec3(0.04), base, metallic); }\n")
+                     .function();
+  EXPECT_EQ(f.programs.size(), 1U);
+  const auto apart = Written(
+                         "// base 0 1 0.5\nvec3 f(vec3 n, vec3 v, vec3 l, vec3 base) { return "
+                         "base * vec3(0.1, 0.2, 0.1); }\n")
+                         .function();
+  EXPECT_EQ(apart.programs.size(), 3U);
+}
+
 }  // namespace
 }  // namespace gonio::foreign

@@ -136,5 +136,46 @@ TEST(CompareTerms, TwoWidthsVaryOnBothSides) {
   EXPECT_HAS(one.pairs, "alpha_x = rough² / √(1 − 0.9 anisotropy)");
 }
 
+TEST(CompareTerms, ASquareByItsNameIsRootedAndAnUnknownNameIsSought) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  for (const auto& [name, map] :
+       {std::pair{"a2", "alpha = √a2"}, {"m2", "alpha = √m2"}, {"blur", "alpha = √blur"}}) {
+    const auto path = folder.write(std::string(name) + ".glsl",
+                                   ggx("float a2 = " + std::string(name) + ";", whole, name));
+    const auto c = compare_terms(path, "ndf.ggx", {});
+    EXPECT_LT(c.largest, 1e-9) << name;
+    EXPECT_EQ(c.pairs, map);
+  }
+}
+
+TEST(CompareTerms, AllMissingBoundsAreAskedForByNamesThatAreTaken) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path =
+      folder.write("mixed.glsl", model_of("float alpha, vec3 tint",
+                                          "D_GGX(NoH, alpha) * V_Smith(NoL, NoV, alpha) * "
+                                          "(tint.g + (1.0 - tint) * p)"));
+  const auto name = path + ":model";
+  const std::string ours = "ggx/smith_ggx.correlated/schlick";
+  EXPECT_HAS(test::refusal([&] { compare_with_model(name, ours, {}); }, Exit::usage),
+             "alpha, tint of " + name +
+                 " have no bounds: give them by --domain alpha=LOW,HIGH tint=LOW,HIGH");
+  EXPECT_GT(compare_with_model(name, ours, {{"alpha", {0.1, 1}}, {"tint", {0, 1}}}).largest, 0);
+}
+
+TEST(CompareTerms, WhatIsAsGoodAsNothingOnBothSidesIsTheSame) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder folder;
+  const auto path = folder.write(
+      "sheen.glsl",
+      model_of("float alpha 0.1 1 0.5, float f0 0 1 0.5",
+               "vec3(f0 * (2.0 + 1.0 / alpha) * pow(1.0 - min(NoH * NoH, 1.0), 0.5 / alpha) / (2.0 "
+               "* PI) * V_Smith(NoL, NoV, alpha))"));
+  EXPECT_LT(
+      compare_with_model(path + ":model", "charlie/smith_ggx.correlated/constant", {}).largest,
+      1e-6);
+}
+
 }  // namespace
 }  // namespace gonio

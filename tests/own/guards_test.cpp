@@ -56,5 +56,12 @@ TEST(Guards, AHalfVectorThatIsNormalisedInPartIsNamed) {
   EXPECT_EQ(of("(L + V) * inversesqrt(dot(L + V, L + V))"), "");
 }
 
+TEST(Guards, AnAmountThatTakesLittleIsTheRoundestThatItMayBe) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_HAS(text_of(audited(
+                 replaced(tutorial("4.0"), "(4.0 * NoL * NoV)", "(4.0 * NoL * NoV + 0.0001)"))),
+             "0.0001 is added to 4 NoL NoV");
+}
+
 }  // namespace
 }  // namespace gonio

@@ -140,5 +140,80 @@ TEST(NearestForm, ADistributionWithoutPiIsAskedWhereItsCallerMayDivide) {
   EXPECT_HAS(text_of(named), asked);
 }
 
+TEST(NearestForm, NamesThatSaySquareAreAccusedOfNoMissingOne) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string vis =
+      "(float NoV, float NoL, float W) { float k = sqrt(W) * 0.5; return 0.25 / ((NoV * (1.0 - k) "
+      "+ k) * (NoL * (1.0 - k) + k)); }\n";
+  for (const std::string w : {"a2", "m2", "alphaSq", "roughness4"}) {
+    auto text = "// " + w + " 0.01 1 0.5\nfloat Vis_Schlick" + vis;
+    for (auto at = text.find('W'); at != text.npos; at = text.find('W')) text.replace(at, 1, w);
+    EXPECT_EQ(form_of(text), "masking.schlick_ggx.half_alpha") << w;
+  }
+  for (const std::string w : {"alphaSquared", "alpha_sq", "roughness2", "mSq"})
+    EXPECT_EQ(form_of(ggx("float a2 = " + w + ";", whole, w)), "ndf.ggx") << w;
+  EXPECT_EQ(form_of(ggx("float a2 = Roughness2 * Roughness2;", whole, "Roughness2")), "ndf.ggx");
+}
+
+TEST(NearestForm, AFormAsItIsShippedIsNoSlipOfAnother) {
+  SKIP_WITHOUT_SHADERS;
+  const auto a = audited(
+      "// Roughness 0.05 1 0.5\nfloat GGX_Mobile(float Roughness, float NoH) { float a = Roughness "
+      "* Roughness, n = NoH * a, p = a / (1.0 - NoH * NoH + n * n); return min(p * p, 2048.0); "
+      "}\n");
+  EXPECT_EQ(nearest(a), "ndf.ggx.ue_mobile");
+  EXPECT_EQ(slips(a), "");
+  EXPECT_HAS(text_of(a), "1/π is missing; ndf.ggx.ue_mobile ships so");
+}
+
+TEST(NearestForm, AScaledDiffuseFormIsAskedAbout) {
+  SKIP_WITHOUT_SHADERS;
+  const auto scaled = [](const std::string& by) {
+    return text_of(
+        audited("// roughness 0.05 1 0.5\n" + std::string(terms) +
+                    "float Fd(float NoV, float NoL, float LoH, float roughness) { return " + by +
+                    " * burley(NoL, NoV, LoH, roughness) / PI; }\n",
+                4));
+  };
+  EXPECT_HAS(scaled("0.8"), "its value is 0.8 times that form's");
+  EXPECT_HAS(scaled("PI"), "1/π is missing: right where its caller divides by π");
+  EXPECT_EQ(scaled("1.0").find("times that form's"), std::string::npos);
+}
+
+TEST(NearestForm, WidthsThatAreSwappedAreNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& x, const std::string& y) {
+    return slips(
+        audited("// ax 0.05 1 0.3\n// ay 0.05 1 0.3\nfloat D(float NoH, float XoH, float "
+                "YoH, float ax, float ay) { float d = XoH * XoH / (" +
+                x + " * " + x + ") + YoH * YoH / (" + y + " * " + y +
+                ") + NoH * NoH; return 1.0 / (3.14159265358979 * ax * ay * d * d); }\n"));
+  };
+  EXPECT_EQ(of("ax", "ay"), "");
+  EXPECT_EQ(of("ay", "ax"), "ax and ay are swapped: ax belongs to the tangent X\n");
+}
+
+TEST(NearestForm, AnotherNormIsPrintedOverTheWholeRange) {
+  SKIP_WITHOUT_SHADERS;
+  const auto a = audited(
+      "// ax 0.1 1 0.3\n// ay 0.1 1 0.3\nfloat D(float NoH, float XoH, float YoH, float ax, float "
+      "ay) { float d = XoH * XoH / (ax * ax) + YoH * YoH / (ay * ay) + NoH * NoH; return 1.0 / "
+      "(3.14159265358979 * ax * ax * ay * ay * d * d); }\n");
+  EXPECT_HAS(slips(a), "∫ D cos θ is 1 to 100, expected 1");
+}
+
+TEST(NearestForm, TheFactorOfADistributionIsNotThatOfV) {
+  SKIP_WITHOUT_SHADERS;
+  const auto a =
+      audited(ggx("float a2 = alpha * alpha;", "2.0 * a2 / (3.14159265358979 * d * d)", "alpha"));
+  EXPECT_EQ(slips(a), "twice too large: a factor ½ is missing\n");
+  const auto g = audited(
+      "// alpha 0.1 1 0.5\nfloat g1(float c, float a) { return c / (c + sqrt(a * a + (1.0 - a * a) "
+      "* c * c)); }\nfloat G_Smith(float NoL, float NoV, float alpha) { return g1(NoL, alpha) * "
+      "g1(NoV, alpha); }\n",
+      1);
+  EXPECT_EQ(slips(g), "4 times too small: the 2 of each G1 = 2 c/(c + …) is missing\n");
+}
+
 }  // namespace
 }  // namespace gonio

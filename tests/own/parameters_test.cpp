@@ -56,5 +56,44 @@ TEST(OwnParameters, MetalsAndColoursWithoutBoundsAreSoughtFromZeroToOne) {
   EXPECT_HAS(e.albedo.at, "roughness 0.05");
 }
 
+TEST(OwnParameters, ANameThatSaysSquareIsOne) {
+  const auto squared = [](const char* name) {
+    Parameter p;
+    p.name = p.meaning = name;
+    return is_squared(p) && width_of(std::span(&p, 1));
+  };
+  for (const char* name : {"a2", "m2", "mSq", "a_sq", "alphaSq", "alphaSquared", "m_squared",
+                           "Roughness2", "roughness4", "r4", "alphaPow2"})
+    EXPECT_TRUE(squared(name)) << name;
+  for (const char* name : {"alpha", "roughness", "square", "m", "w2"})
+    EXPECT_FALSE(squared(name)) << name;
+}
+
+TEST(OwnParameters, WhatIsOneOfMostSurfacesIsNoWidthAndAWeightNoF0) {
+  SKIP_WITHOUT_SHADERS;
+  const OwnSlips s(
+      model_of("vec3 f0, vec3 f90, float alphaRoughness 0.05 1 0.3, float specularWeight 0 1 1",
+               "specularWeight * D_GGX(NoH, alphaRoughness) * V_Smith(NoL, NoV, alphaRoughness) * "
+               "(f0 + (f90 - f0) * p)"));
+  ASSERT_TRUE(s.model) << s.why;
+  EXPECT_EQ(s.model->spec, "ggx/smith_ggx.correlated/schlick");
+  EXPECT_EQ(s.slips, "");
+}
+
+TEST(OwnParameters, TwoWidthsThatAreOneMakeOurHighlight) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [&](const std::string& a, const std::string& b, const std::string& reading) {
+    const std::string alpha = "sqrt(" + a + " * " + b + ")";
+    return OwnSlips(
+        model_of(
+            "vec3 f0 0 1 0.04, float " + a + " 0.1 1 0.2, float " + b + " 0.1 1 0.8",
+            "D_GGX(NoH, " + alpha + ") * V_Smith(NoL, NoV, " + alpha + ") * (f0 + (1.0 - f0) * p)"),
+        reading);
+  };
+  EXPECT_TRUE(of("ax", "ay", "").model);
+  EXPECT_TRUE(of("alphaX", "alphaY", "").model);
+  EXPECT_TRUE(of("along", "across", "{argument.along=alpha;argument.across=alpha}").model);
+}
+
 }  // namespace
 }  // namespace gonio

@@ -368,5 +368,67 @@ TEST(Slips, AnF0ThatIsMixedTwiceIsNamed) {
              "its F0 is mixed twice");
 }
 
+TEST(SlipForms, ClampsOfAWholeHighlightAreNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string arguments = "float alpha 0.05 1 0.3, vec3 f0 0 1 0.04",
+                    light = "D_GGX(NoH, alpha) * V_Smith(NoL, NoV, alpha) * (f0 + (1.0 - f0) * p)";
+  EXPECT_HAS(OwnSlips(model_of(arguments, "clamp(" + light + ", 0.0, 1.0)")).slips,
+             "a guard or a clamp cuts the peak below alpha");
+  EXPECT_HAS(OwnSlips(model_of(arguments, replaced(light, "(NoH,", "(min(NoH, 0.0),"))).slips,
+             "NoH is 0 everywhere: a clamp holds it, as min in the place of max");
+  EXPECT_EQ(OwnSlips(model_of(arguments, light)).slips, "");
+}
+
+TEST(SlipForms, AFunctionWithoutValuesOfAFormIsAccusedOfNone) {
+  SKIP_WITHOUT_SHADERS;
+  EXPECT_EQ(
+      OwnSlips(replaced(model_of("float alpha 0.05 1 0.3, vec3 f0 0 1 0.04",
+                                 "D_GGX(NoH, alpha) * V_Smith(NoL, NoV, alpha) * (f0 + (1.0 - "
+                                 "f0) * p)"),
+                        "L + V)", "V - L)"))
+          .slips,
+      "");
+  const auto twice = audited(
+      "// alpha 0.1 1 0.5\nfloat V_Smith(float NoL, float NoV, float alpha) { return 0.25 / (NoL * "
+      "sqrt(NoV * NoV * (1.0 - alpha * alpha) + alpha * alpha)); }\n");
+  EXPECT_HAS(slips(twice), "its term of the view stands twice");
+}
+
+TEST(SlipForms, AMetalThatKeepsItsDiffusePartHasOurHighlight) {
+  SKIP_WITHOUT_SHADERS;
+  const auto of = [](const std::string& diffuse, const std::string& f0) {
+    return OwnSlips(model_of("float alpha 0.05 1 0.3, vec3 baseColor 0 1 0.5, float metallic 0 1 0",
+                             diffuse +
+                                 " / PI + D_GGX(NoH, alpha) * V_Smith(NoL, NoV, alpha) * mix(" +
+                                 f0 + ", vec3(1.0), p)"));
+  };
+  const auto kept = of("baseColor", "mix(vec3(0.04), baseColor, metallic)");
+  ASSERT_TRUE(kept.model) << kept.why;
+  EXPECT_EQ(kept.model->spec, "lambert+ggx/smith_ggx.correlated/schlick");
+  EXPECT_HAS(kept.slips, "its diffuse part is left where metallic is 1");
+  EXPECT_NEAR(kept.highlight->value, 1, 0.01);
+  const auto swapped = of("baseColor * (1.0 - metallic)", "mix(baseColor, vec3(0.04), metallic)");
+  ASSERT_TRUE(swapped.model) << swapped.why;
+  EXPECT_HAS(swapped.slips, "baseColor is F0 where metallic is 0: expected where it is 1");
+  EXPECT_NEAR(swapped.highlight->value, 1, 0.01);
+}
+
+TEST(SlipForms, LambertUnderTheHighlightsFresnelTermIsOurs) {
+  SKIP_WITHOUT_SHADERS;
+  const OwnSlips s(model_of("float alpha 0.05 1 0.3, vec3 f0 0 1 0.04, vec3 kd 0 1 0.5",
+                            "(1.0 - f0 - (1.0 - f0) * p) * kd / PI + D_GGX(NoH, alpha) * "
+                            "V_Smith(NoL, NoV, alpha) * (f0 + (1.0 - f0) * p)"));
+  ASSERT_TRUE(s.model) << s.why;
+  EXPECT_EQ(s.model->spec, "lambert.coupled+ggx/smith_ggx.correlated/schlick");
+  EXPECT_EQ(s.slips, "");
+}
+
+TEST(SlipForms, PiThatOnlyAGuessTookOutIsLeftIn) {
+  SKIP_WITHOUT_SHADERS;
+  const auto a = audited(replaced(whole_model("a * a", "a * a", "VoH"), "/ (4.0 * NoL * NoV)", ""));
+  EXPECT_EQ(slips(a), "G stands where V belongs: its highlight lacks the division by 4 NoL NoV\n");
+  EXPECT_EQ(a.of.function->includes, "nothing");
+}
+
 }  // namespace
 }  // namespace gonio

@@ -321,6 +321,9 @@ TEST(Choice, GivesAShaderItsOwnColourAndMetallicWhateverItsReferenceMakesOfThem)
   of.choice["reference_parameters"] = json::object();
   EXPECT_HAS(of.printed(), "baseColor 0.3; metallic 0.5; ");
   EXPECT_HAS(of.printed(), "kd 0.05; ");
+  of.choice["parameters"] = {{"baseColor", 0.3}, {"metallic", 0.5}};
+  of.choice["reference"] = "lambert.metallic+ggx/smith_ggx.correlated/schlick.metallic";
+  EXPECT_HAS(of.printed(), "base_color 0.3; ") << "the same letters";
 }
 
 TEST(Choice, AWidthThatItGivesAShaderIsUsedWhateverItsCase) {
