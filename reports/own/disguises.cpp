@@ -22,6 +22,8 @@ constexpr std::array all_disguises{
     Disguise{[](const Row& r) { return 1 + fifth(r); }, "", true},
     Disguise{[](const Row& r) { return 4 * r.nol * r.nov; },
              "G stands where V belongs: its highlight lacks the division by 4 NoL NoV"},
+    Disguise{[](const Row& r) { return 1 / (4 * r.nol * r.nov); },
+             "4 NoL NoV stands below twice: V is divided by it already"},
     Disguise{[](const Row& r) { return r.nol; },
              "its highlight has the cosine NoL in it, which its diffuse part has not"},
     Disguise{[](const Row& r) { return 0.04 + 0.96 * fifth(r); }, f0_after, false, true},

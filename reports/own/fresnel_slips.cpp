@@ -52,6 +52,17 @@ constexpr std::array of_f0{
     SlipOfF0{
         [](double f, double c) { return f + (1 - f) * std::exp2((-5.55473 * c + 6.98316) * c); },
         "+ 6.98316 stands where − 6.98316 belongs in its Fresnel term, which exceeds 1"},
+    SlipOfF0{
+        [](double f, double c) { return f + (1 - f) * std::exp((-5.55473 * c - 6.98316) * c); },
+        "exp stands where exp2 belongs in its Fresnel term"},
+    SlipOfF0{[](double f, double c) { return f + (1 - f) * std::pow(1 + c, 5); },
+             "1 + VoH stands where 1 − VoH belongs in its Fresnel term"},
+    SlipOfF0{[](double f, double c) { return f - (1 - f) * darkened(c); },
+             "its Fresnel term is F0 − (1 − F0) (1 − VoH)⁵, expected F0 + (1 − F0) (1 − VoH)⁵"},
+    SlipOfF0{[](double f, double c) { return f + (1 + f) * darkened(c); },
+             "its Fresnel term is F0 + (1 + F0) (1 − VoH)⁵, expected F0 + (1 − F0) (1 − VoH)⁵"},
+    SlipOfF0{[](double f, double c) { return f * (1 - f) * darkened(c); },
+             "its Fresnel term is F0 (1 − F0) (1 − VoH)⁵, expected F0 + (1 − F0) (1 − VoH)⁵"},
     SlipOfF0{[](double f, double c) { return schlick(f, c * c); },
              "its Fresnel term has VoH² where VoH belongs"},
     SlipOfF0{[](double f, double c) { return f + f * darkened(c); },

@@ -36,9 +36,7 @@ std::string half_text(const stability::Answer& a, const stability::Subject& subj
   return s;
 }
 
-}  // namespace
-
-std::string in_half(stability::Subject subject, const Domain& domain, bool proves) {
+stability::Question question_of(stability::Subject subject, const Domain& domain, bool proves) {
   stability::Question q;
   q.subject = std::move(subject);
   for (const auto& [name, range] : domain)
@@ -53,12 +51,35 @@ std::string in_half(stability::Subject subject, const Domain& domain, bool prove
   q.exhausts = q.subject.parameters > 0 || q.subject.inputs.size() == 1;
   q.proves = proves;
   q.measures_errors = false;
+  return q;
+}
+
+/// Of masking that fails at grazing angles, as every V of Smith's does in half, the cosines from which it does not: ", …"; else "".
+std::string from_cosines(std::size_t term, const Domain& domain) {
+  for (const double least : {0.001, 0.01, 0.05}) {
+    auto steep = domain;
+    for (const char* cosine : {"nol", "nov"}) steep.emplace_back(cosine, Range{least, 1});
+    const auto q = question_of(stability::subjects_of_term(term).back(), steep, true);
+    if (stability::answer(q).holds)
+      return fmt::format("; for NoL and NoV from {:g} it is finite", least);
+  }
+  return "";
+}
+
+}  // namespace
+
+std::string in_half(stability::Subject subject, const Domain& domain, bool proves) {
+  const auto q = question_of(std::move(subject), domain, proves);
   return half_text(stability::answer(q), q.subject);
 }
 
 std::string in_half(std::size_t term, const Domain& domain) {
-  return in_half(stability::subjects_of_term(term).back(), domain,
-                 catalogue()[term].role() != Role::diffuse);
+  const bool is_masking = catalogue()[term].role() == Role::masking;
+  const auto q = question_of(stability::subjects_of_term(term).back(), domain,
+                             catalogue()[term].role() != Role::diffuse);
+  const auto answer = stability::answer(q);
+  return half_text(answer, q.subject) +
+         (is_masking && answer.counterexample ? from_cosines(term, domain) : "");
 }
 
 }  // namespace gonio

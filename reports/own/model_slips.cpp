@@ -32,7 +32,8 @@ std::vector<std::string> likely_slips(const NearestModel& n,
   if (std::abs(n.factor - 1) > same_within) all.push_back(highlight_text(n.factor, guessed_pi));
   const bool is_slip = !n.is_weight || n.colours.metallic;  // a metal's F0 is no weight
   if (is_slip && !n.disguise.empty()) all.push_back(n.disguise);
-  for (const auto& slip : {n.half_vector, n.form_slip, n.fresnel_slip, n.interface_slip})
+  for (const auto& slip :
+       {n.half_vector, n.form_slip, n.fresnel_slip, n.interface_slip, n.diffuse_slip})
     if (!slip.empty()) all.push_back(slip);
   const std::string name(width.name);
   if (n.power != n.masking_power)

@@ -40,6 +40,10 @@ std::array<std::size_t, 2> ends_of(const Values& v) {
   return {static_cast<std::size_t>(least - v.begin()), static_cast<std::size_t>(most - v.begin())};
 }
 
+double middle_of(const Parameter& p) {
+  return (low_of(p) + high_of(p)) / 2;
+}
+
 /// A form of the catalogue, or one that shaders have by a slip.
 struct Form {
   std::size_t term;
@@ -166,9 +170,12 @@ class Search {
     for (std::size_t i = 0; i < f.size(); ++i) f[i] /= of[i];
     return f;
   }
+  /// With a middling F0, which a highlight has, too.
   Values diffuse(double colour, Others others) const {
     auto p = with_diffuse(own_, colours_, colour, others);
     set_width(p, widths_[0]);
+    for (const auto k : colours_.f0)
+      if (!colours_.metallic) p[k] = middle_of(own_[k]);
     return values_in(Number::double_, term_, p, rows_);
   }
   /// Rows as a distribution and a Fresnel term of the shader's half vector have them.
@@ -400,6 +407,10 @@ class Search {
             "mix(0.04, albedo, metallic) in its place";
       return form;
     }
+    if (is([](std::size_t) { return 1.0; })) {
+      n.fresnel_slip = "its highlight does not depend on F0: its Fresnel term is missing";
+      return {};
+    }
     n.fresnel_slip = fresnel_slip(f0, taken, f, true);
     if (n.fresnel_slip.empty()) n.fresnel_slip = fresnel_slip(f0, rows, f, true);
     n.other_fresnel = n.fresnel_slip.empty();
@@ -449,9 +460,13 @@ class Search {
     if (!n.lacks_diffuse || !fresnel || colours_.f0.empty() || colours_.metallic) return "";
     Values p;
     for (const auto& q : catalogue()[*fresnel].parameters) p.push_back(q.start);
-    p[0] = low_of(own_[colours_.f0[0]]);
+    p[0] = middle_of(own_[colours_.f0[0]]);
     const auto f = values_in(Number::double_, *fresnel, p, as_taken(rows_));
-    if (!is_even([&](std::size_t i) { return 1 - f[i]; })) return "";
+    const bool is_of_f = is_even([&](std::size_t i) { return f[i]; });
+    if (is_of_f)
+      n.diffuse_slip =
+          "its diffuse part is multiplied by F: expected 1 − F, what the highlight leaves";
+    if (!is_of_f && !is_even([&](std::size_t i) { return 1 - f[i]; })) return "";
     n.lacks_diffuse = false;
     return "lambert.coupled";
   }

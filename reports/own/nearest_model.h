@@ -32,6 +32,7 @@ struct NearestModel {
   std::string fresnel_slip;    ///< a sentence
   std::string interface_slip;  ///< likewise, of F that comes from eta
   std::string form_slip;       ///< of D or V
+  std::string diffuse_slip;    ///< a sentence
   std::string half_vector;     ///< a sentence
   std::string shape, masking;  ///< the forms of D and V, without their roles
   std::optional<Bite> bite;

@@ -194,6 +194,11 @@ constexpr std::array of_pair{
              "its term of the light stands twice: that of the view, NoL beside the root with NoV, "
              "is missing",
              "smith_ggx.correlated"},
+    SlipForm{[](double a, const Row& r) {
+               const auto root = [&](double c) { return std::sqrt(c * c * (1 + a * a) + a * a); };
+               return correlated(r, root(r.nol), root(r.nov));
+             },
+             "1 + alpha² stands where 1 − alpha² belongs in Smith's root", "smith_ggx.correlated"},
     SlipForm{[](double a, const Row& r) { return correlated(r, below(a, r.nol), below(a, r.nov)); },
              no_root, "smith_ggx.correlated"},
     SlipForm{[](double a, const Row& r) {
@@ -274,6 +279,20 @@ double burley_of(double f90, const Row& r) {
   return (1 + (f90 - 1) * std::pow(1 - r.nol, 5)) * (1 + (f90 - 1) * std::pow(1 - r.nov, 5));
 }
 constexpr std::array of_diffuse{
+    SlipForm{
+        [](double a, const Row& r) { return burley_of(0.5 + 2 * std::sqrt(a) * r.noh * r.noh, r); },
+        "NoH stands where VoH belongs in F90 = 0.5 + 2 roughness VoH²", "disney"},
+    SlipForm{[](double a, const Row& r) {
+               const double f90 = 0.5 + 2 * std::sqrt(a) * r.voh * r.voh;
+               return (1 + (f90 - 1) * std::pow(r.nol, 5)) * (1 + (f90 - 1) * std::pow(r.nov, 5));
+             },
+             "NoL⁵ and NoV⁵ stand where (1 − NoL)⁵ and (1 − NoV)⁵ belong", "disney"},
+    SlipForm{
+        [](double a, const Row& r) { return burley_of(1.5 + 2 * std::sqrt(a) * r.voh * r.voh, r); },
+        "F90 stands where F90 − 1 belongs", "disney"},
+    SlipForm{
+        [](double a, const Row& r) { return burley_of(0.5 + std::sqrt(a) * r.voh * r.voh, r); },
+        "the 2 is missing in F90 = 0.5 + 2 roughness VoH²", "disney"},
     SlipForm{[](double a, const Row& r) { return burley_of(0.5 + 2 * std::sqrt(a) * r.voh, r); },
              "VoH is not squared in F90 = 0.5 + 2 roughness VoH²", "disney"},
     SlipForm{[](double sigma, const Row& r) {

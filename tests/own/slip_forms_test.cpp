@@ -430,5 +430,56 @@ TEST(SlipForms, PiThatOnlyAGuessTookOutIsLeftIn) {
   EXPECT_EQ(a.of.function->includes, "nothing");
 }
 
+TEST(SlipForms, TypicalSlipsOfPartsAreNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const auto fresnel = [](const std::string& value) {
+    return slips(
+        audited("// f0 0 1 0.04\nfloat F_Schlick(float f0, float VoH) { float p = pow(1.0 - "
+                "VoH, 5.0); return " +
+                value + "; }\n"));
+  };
+  EXPECT_HAS(fresnel("f0 + (1.0 - f0) * exp((-5.55473 * VoH - 6.98316) * VoH)"), "exp2 belongs");
+  EXPECT_HAS(fresnel("f0 + (1.0 - f0) * pow(1.0 + VoH, 5.0)"), "1 + VoH stands");
+  EXPECT_HAS(fresnel("f0 - (1.0 - f0) * p"), "F0 − (1 − F0)");
+  EXPECT_HAS(fresnel("f0 + (1.0 + f0) * p"), "(1 + F0)");
+  EXPECT_HAS(fresnel("f0 * (1.0 - f0) * p"), "F0 (1 − F0)");
+  EXPECT_EQ(fresnel("f0 + (1.0 - f0) * p"), "");
+  const auto burley = [](const std::string& f90, const std::string& factor) {
+    auto text =
+        "// roughness 0.05 1 0.5\nfloat Fd(float NoV, float NoL, float LoH, float NoH, float "
+        "roughness) { float f = " +
+        f90 + "; return (1.0 + f * " + factor + ") * (1.0 + f * " +
+        (factor == "pow(NoL, 5.0)" ? "pow(NoV, 5.0)" : "pow(1.0 - NoV, 5.0)") +
+        ") / 3.14159265358979; }\n";
+    return slips(audited(text));
+  };
+  const std::string right = "2.0 * roughness * LoH * LoH - 0.5", fifth = "pow(1.0 - NoL, 5.0)";
+  EXPECT_EQ(burley(right, fifth), "");
+  EXPECT_HAS(burley("2.0 * roughness * NoH * NoH - 0.5", fifth), "NoH stands where VoH belongs");
+  EXPECT_HAS(burley(right, "pow(NoL, 5.0)"), "NoL⁵ and NoV⁵ stand");
+  EXPECT_HAS(burley("2.0 * roughness * LoH * LoH + 0.5", fifth), "F90 − 1 belongs");
+  EXPECT_HAS(burley("roughness * LoH * LoH - 0.5", fifth), "the 2 is missing");
+  const auto v = audited(
+      "// alpha 0.1 1 0.5\nfloat V_Smith(float NoL, float NoV, float alpha) { float q = alpha * "
+      "alpha; return 0.5 / (NoL * sqrt(NoV * NoV * (1.0 + q) + q) + NoV * sqrt(NoL * NoL * (1.0 + "
+      "q) "
+      "+ q)); }\n");
+  EXPECT_HAS(slips(v), "1 + alpha² stands");
+}
+
+TEST(SlipForms, TypicalSlipsOfWholeModelsAreNamed) {
+  SKIP_WITHOUT_SHADERS;
+  const std::string arguments = "float alpha 0.05 1 0.3, vec3 f0 0 1 0.04, vec3 kd 0 1 0.5",
+                    lobe = "D_GGX(NoH, alpha) * V_Smith(NoL, NoV, alpha)",
+                    f = " * (f0 + (1.0 - f0) * p)";
+  EXPECT_HAS(OwnSlips(model_of(arguments, "kd / PI + " + lobe + f + " / (4.0 * NoL * NoV)")).slips,
+             "4 NoL NoV stands below twice");
+  EXPECT_HAS(OwnSlips(model_of(arguments, "(1.0 - f0 - (1.0 - f0) * p) * kd / PI + " + lobe)).slips,
+             "its Fresnel term is missing");
+  EXPECT_HAS(OwnSlips(model_of(arguments, "kd / PI" + f + " + " + lobe + f)).slips,
+             "its diffuse part is multiplied by F");
+  EXPECT_EQ(OwnSlips(model_of(arguments, "kd / PI + " + lobe + f)).slips, "");
+}
+
 }  // namespace
 }  // namespace gonio
