@@ -246,10 +246,10 @@ std::string words_of(AzimuthCheck azimuth) {
 }
 
 std::string refusal_of(const OtherArrangement& a) {
-  std::string lines = fmt::format("directions: {}\n  so read, the {} is {:.3g} times less", a.what,
-                                  a.measure, 1 / a.ratio);
-  for (const auto& line : a.cure) lines += "\n  " + line;
-  return lines + "\n  --as-given fits all the same";
+  std::string line = fmt::format("directions: {}; so read, the {} is {:.3g} times less", a.what,
+                                 a.measure, 1 / a.ratio);
+  for (const auto& cure : a.cure) line += "; " + cure;
+  return line + "; --as-given fits all the same";
 }
 
 }  // namespace gonio
