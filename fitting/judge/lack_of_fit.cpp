@@ -30,7 +30,10 @@ using namespace misfit;
 double mean_square(const Left& left) {
   double sum = 0, n = 0;
   for (const auto& v : left.values)
-    if (v.change > 0) sum += v.r * v.r / (v.change * v.change), ++n;
+    if (v.change > 0) {
+      const double count = v.root_count * v.root_count;
+      sum += count * v.r * v.r / (v.change * v.change), n += count;
+    }
   return sum / std::max(n, 1.0);
 }
 /// That of the noise, at most: half the mean square of what values of a list and those nearest to them differ by beyond the model;
@@ -42,7 +45,9 @@ double noise_square_of_nearest(const Left& left) {
     if (v.change > 0) of_channel[v.channel].push_back(&v);
   const auto distance = [&](const Value* a, const Value* b) {
     const auto &x = left.units[a->unit].at, &y = left.units[b->unit].at;
-    return a == b ? HUGE_VAL : -dot(x.wi, y.wi) - dot(x.wo, y.wo);
+    const double near = dot(x.wi, y.wi) + dot(x.wo, y.wo);
+    constexpr double same = 2 - 1e-12;  // a sample twice is one of twice the weight
+    return a == b || near > same ? HUGE_VAL : -near;
   };
   double squares = 0, pairs = 0;
   for (const auto& values : of_channel) {
@@ -52,7 +57,8 @@ double noise_square_of_nearest(const Left& left) {
       const Value* const b =
           *std::ranges::min_element(values, {}, [&](const Value* v) { return distance(a, v); });
       const double apart = a->whole / a->change - b->whole / b->change;
-      squares += apart * apart / 2, ++pairs;
+      const double count = a->root_count * a->root_count;
+      squares += count * apart * apart / 2, pairs += count;
     }
   }
   return pairs > 0 ? squares / pairs : std::nan("");

@@ -417,8 +417,7 @@ Regression regress(const Left& found,
   out.common = common;
   for (std::size_t i = 0; i < r.size(); ++i) {
     const auto& v = left.values[i];
-    if (v.change > 0)
-      out.left += r[i] * r[i] / (v.change * v.change) / static_cast<double>(r.size());
+    if (v.change > 0) out.left += std::pow(v.root_count * r[i] / v.change, 2) / n;
   }
   out.scales = Gains(left, gains).count();
   if (only_scatter) return out;
