@@ -70,6 +70,12 @@ struct Votes {
   double decided() const {
     return std::abs(for_it - against) / std::sqrt(std::max(for_it + against, 1.0));
   }
+  /// All for it, or all against, and by far.
+  bool unanimous() const {
+    constexpr double least = 3.5, far = 5;
+    return std::min(for_it, against) == 0 && decided() >= least &&
+           std::abs(std::log(ratio)) >= std::log(far);
+  }
 };
 
 /// \param other  curls under another azimuth   \param noise  curl that chance makes
@@ -101,6 +107,7 @@ std::array<TurnOfNormals, 3> turns_of_normals(const TexelSample& s,
   double finest = 0;
   std::array<double, 3> strongest{};
   std::array<bool, 3> contradicted{};
+  std::array<std::array<std::size_t, 2>, 3> unanimous{};  // sizes of loops, against and for it
   for (std::size_t size = 1; size < s.block_width; size *= 2) {
     std::vector<Loop> loops;
     for (const auto& piece : pieces) add_loops(piece, size, loops);
@@ -128,7 +135,10 @@ std::array<TurnOfNormals, 3> turns_of_normals(const TexelSample& s,
       if (v.telling >= 0.05 * static_cast<double>(loops.size()) && v.telling >= 36 &&
           std::abs(std::log(v.ratio)) < 0.1)
         contradicted[k] = true;
-      if (v.decided() < certain) continue;
+      // Where the normals of many texels are not known, few loops are left, but of several sizes.
+      auto& sizes = unanimous[k][v.for_it > v.against];
+      sizes += v.unanimous();
+      if (v.decided() < certain && !(v.unanimous() && sizes > 1)) continue;
       const bool is_right = v.for_it >= nearly_all * v.telling && v.against <= few * v.for_it;
       if (!is_right && v.against < most * v.telling) continue;
       const auto verdict = is_right ? AzimuthVerdict::right : AzimuthVerdict::excluded;

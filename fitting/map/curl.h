@@ -25,6 +25,7 @@ struct TurnOfNormals {
 ///
 /// A loop tells where one of the two curls is far above what the best azimuth leaves at that size.  An azimuth is right where its curl is less than half of the
 /// given one's in nearly all loops that tell, at some size, and it is excluded at none: steps in a surface, as between threads of cloth, make curls of their own.
+/// Few loops decide where all agree by far, at two sizes.
 /// \param sample   pieces of a map, TexelSample::block texels each, TexelSample::block_width of them side by side
 /// \param normals  [3][texel]
 std::array<TurnOfNormals, 3> turns_of_normals(const TexelSample& sample,
