@@ -163,11 +163,12 @@ NearestForm compared(std::size_t term, std::size_t form, const Pairing& pairing,
   n.power = power;
   std::vector<Values> f, g;
   constexpr std::size_t places = 5;
+  const bool of_two = own.anisotropic || two_widths(known);
   for (std::size_t k = 0; k < places; ++k) {
     Values p, q;
-    // Of two widths, two values.
+    // Two widths have two values.
     for (const auto& a : known)
-      p.push_back(values_between(a, places)[(k + (own.anisotropic ? 2 * p.size() : 0)) % places]);
+      p.push_back(values_between(a, places)[(k + (of_two ? 2 * p.size() : 0)) % places]);
     constexpr double of_no_surface = 0.01;  // there Unreal's F90 is less than 1
     for (std::size_t j = 0; j < known.size() && k == 0 && own.role() == Role::fresnel; ++j)
       if (is_f0(known[j]))
@@ -328,7 +329,7 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
         const auto n = compared(term, form, pairing, power);
         if (!std::isfinite(n.difference)) continue;
         // A form as it is shipped goes before the one that it stands for with what ships missing.
-        if (!entry.about->approximates.empty() && is_plain(n) &&
+        if (!entry.about->reference().empty() && is_plain(n) &&
             (!shipped || n.difference < shipped->difference))
           shipped = n;
         // A map that a width's name does not allow is no likeness: it is exact or nothing.
@@ -350,7 +351,7 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
     }
   }
   if (shipped && best && is_same(*best) && !is_plain(*best) &&
-      catalogue()[best->term].id() == catalogue()[shipped->term].about->approximates) {
+      catalogue()[best->term].id() == catalogue()[shipped->term].about->reference()) {
     shipped->as_shipped = likely_slips(term, *best);
     shipped->difference = std::min(shipped->difference, best->difference);
     return shipped;

@@ -345,7 +345,8 @@ class Search {
         own[0].push_back(left_at(widths_[0], grazing_[i]) * form[0][i]);
       guard_ = guard_of(grazing_, own, form);
     }
-    n.drop = drop_of([&](const Row& r) { return left_at(widths_[0], r); }, guard_);
+    if (!std::isfinite(cap_))
+      n.drop = drop_of([&](const Row& r) { return left_at(widths_[0], r); }, guard_);
     n.shape = d.id(), n.masking = v.id();
     auto spec = model_of_lobe(n.shape, n.masking, "schlick");
     const auto fresnel = take_fresnel(n, over_form, v.values[0]);

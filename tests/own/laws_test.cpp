@@ -2,6 +2,7 @@
 #include "reports/own/laws.h"
 
 #include "own/own_shaders.h"
+#include "refusal.h"
 
 #include <gtest/gtest.h>
 
