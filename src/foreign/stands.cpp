@@ -149,6 +149,7 @@ bool depends_on_voh_only(const Function& f) {
   if (!named && (!half || takes("N"))) return false;
   const auto p = defaults_of(f);
   constexpr double grazing = 1e-6, same = 1e-3;
+  const double taken_out = f.includes.find("pi") == f.includes.npos ? 1 : std::numbers::pi;
   std::vector<double> last;
   bool varies = false;
   for (const double voh : {grazing, 0.2, 0.5, 0.8, 0.95}) {
@@ -161,7 +162,8 @@ bool depends_on_voh_only(const Function& f) {
           if (!std::isfinite(value[c]) || std::abs(value[c] - here[c]) > 1e-6 * std::abs(here[c]))
             return false;
       }
-    for (const double x : here) {
+    for (double x : here) {
+      x *= taken_out;
       if (!named && (!(x >= 0) || !(x <= 1 + same))) return false;
       if (!named && voh == grazing && !(x > 1 - same)) return false;
     }
