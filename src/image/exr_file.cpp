@@ -55,16 +55,46 @@ class ExrFile : public ImageFile {
   void read(const Rectangle& part,
             std::span<const std::size_t> channels,
             std::span<float* const> to) override {
-    // Of lines all columns, of tiles whole ones: the part with what is read besides.
-    Rectangle whole{0, part.y, width_, part.height};
-    if (tiles_) {
-      whole.x = part.x / block_width_ * block_width_;
-      whole.y = part.y / block_height_ * block_height_;
-      whole.width = std::min(width_, up(part.x + part.width, block_width_)) - whole.x;
-      whole.height = std::min(height_, up(part.y + part.height, block_height_)) - whole.y;
-    }
-    const bool direct = whole == part;
-    std::vector<float> between(direct ? 0 : channels.size() * whole.size());
+    // What is stored as one is read as one.  Where a part cuts through that it is copied from
+    // there, piece by piece: all of it may be far larger than the part.
+    constexpr std::size_t most_at_once = std::size_t{1} << 20;  // pixels, of lines
+    const std::size_t across = block_width_,
+                      down = tiles_
+                                 ? block_height_
+                                 : std::max(most_at_once / width_ / block_height_, std::size_t{1}) *
+                                       block_height_;
+    const auto whole = [](std::size_t first, std::size_t n, std::size_t block, std::size_t all) {
+      return first % block == 0 && (n % block == 0 || first + n == all);
+    };
+    if (whole(part.x, part.width, across, width_) &&
+        (!tiles_ || whole(part.y, part.height, down, height_)))
+      return read_whole(part, channels, to);
+    const std::size_t right = part.x + part.width, bottom = part.y + part.height;
+    std::vector<float> between;
+    std::vector<float*> planes(channels.size());
+    for (std::size_t y = part.y / down * down; y < bottom; y += down)
+      for (std::size_t x = part.x / across * across; x < right; x += across) {
+        Rectangle piece{x, y, std::min(across, width_ - x), std::min(down, height_ - y)};
+        const std::size_t left = std::max(x, part.x), top = std::max(y, part.y),
+                          columns = std::min(right, x + piece.width) - left,
+                          rows = std::min(bottom, y + piece.height) - top;
+        if (!tiles_) piece.y = top, piece.height = rows;
+        between.resize(channels.size() * piece.size());
+        for (std::size_t k = 0; k < channels.size(); ++k)
+          planes[k] = between.data() + k * piece.size();
+        read_whole(piece, channels, planes);
+        for (std::size_t k = 0; k < channels.size(); ++k)
+          for (std::size_t row = top; row < top + rows; ++row)
+            std::copy_n(planes[k] + (row - piece.y) * piece.width + (left - piece.x), columns,
+                        to[k] + (row - part.y) * part.width + (left - part.x));
+      }
+  }
+
+ private:
+  /// Reads whole tiles, or lines with all their columns.
+  void read_whole(const Rectangle& part,
+                  std::span<const std::size_t> channels,
+                  std::span<float* const> to) {
     // OpenEXR fills a channel once, however often it is asked for.
     const auto first_of = [&](std::size_t k) {
       return static_cast<std::size_t>(std::ranges::find(channels, channels[k]) - channels.begin());
@@ -72,39 +102,30 @@ class ExrFile : public ImageFile {
     Imf::FrameBuffer buffer;
     for (std::size_t k = 0; k < channels.size(); ++k) {
       if (first_of(k) != k) continue;
-      float* const first = direct ? to[k] : between.data() + k * whole.size();
       // The slice's base is the address of pixel (0, 0), which may lie elsewhere.
-      const auto x = left_ + static_cast<std::ptrdiff_t>(whole.x);
-      const auto y = top_ + static_cast<std::ptrdiff_t>(whole.y);
-      const auto shift = (y * static_cast<std::ptrdiff_t>(whole.width) + x) *
+      const auto x = left_ + static_cast<std::ptrdiff_t>(part.x);
+      const auto y = top_ + static_cast<std::ptrdiff_t>(part.y);
+      const auto shift = (y * static_cast<std::ptrdiff_t>(part.width) + x) *
                          static_cast<std::ptrdiff_t>(sizeof(float));
       buffer.insert(channels_[channels[k]],
-                    Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(first) - shift, sizeof(float),
-                               sizeof(float) * whole.width));
+                    Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(to[k]) - shift, sizeof(float),
+                               sizeof(float) * part.width));
     }
     reading([&] {
       const auto number = [](std::size_t i) { return static_cast<int>(i); };
       if (tiles_) {
         tiles_->setFrameBuffer(buffer);
         tiles_->readTiles(
-            number(whole.x / block_width_), number((whole.x + whole.width - 1) / block_width_),
-            number(whole.y / block_height_), number((whole.y + whole.height - 1) / block_height_));
+            number(part.x / block_width_), number((part.x + part.width - 1) / block_width_),
+            number(part.y / block_height_), number((part.y + part.height - 1) / block_height_));
       } else {
         lines_->setFrameBuffer(buffer);
-        lines_->readPixels(top_ + number(whole.y), top_ + number(whole.y + whole.height - 1));
+        lines_->readPixels(top_ + number(part.y), top_ + number(part.y + part.height - 1));
       }
     });
-    for (std::size_t k = 0; direct && k < channels.size(); ++k)
+    for (std::size_t k = 0; k < channels.size(); ++k)
       if (first_of(k) != k) std::copy_n(to[first_of(k)], part.size(), to[k]);
-    for (std::size_t k = 0; !direct && k < channels.size(); ++k)
-      for (std::size_t y = 0; y < part.height; ++y)
-        std::copy_n(between.data() + first_of(k) * whole.size() +
-                        (part.y + y - whole.y) * whole.width + (part.x - whole.x),
-                    part.width, to[k] + y * part.width);
   }
-
- private:
-  static std::size_t up(std::size_t n, std::size_t to) { return (n + to - 1) / to * to; }
   template <class Read>
   void reading(Read&& read) {
     with_exr_errors(path_, "OpenEXR", "a readable image", read);

@@ -2,6 +2,7 @@
 /// \file
 /// Images on disk, read part by part: what is larger than memory has its parts in it alone.
 
+#include <algorithm>
 #include <cstddef>
 #include <memory>
 #include <span>
@@ -19,6 +20,11 @@ struct Rectangle {
   std::size_t size() const { return width * height; }
   bool operator==(const Rectangle&) const = default;
 };
+
+/// At most so many rows, one at least, of whole blocks where these are no higher.
+inline std::size_t whole_blocks(std::size_t most, std::size_t block_height) {
+  return most >= block_height ? most / block_height * block_height : std::max<std::size_t>(most, 1);
+}
 
 /// Open image.  Not shared by threads.
 class ImageFile {

@@ -169,6 +169,7 @@ class NpyFile : public ImageFile {
       channels_ = {"R", "G", "B"};
     else
       for (std::size_t c = 1; c <= channels; ++c) channels_.push_back(std::to_string(c));
+    held_ = size_of(header_.number) * (header_.fortran_order ? height_ : width_ * channels);
   }
 
   void read(const Rectangle& part,

@@ -75,6 +75,8 @@ class PngFile final : public ImageFile {
       channels_ = {"Y"};
     samples_ = channels_.size() + ((type & PNG_COLOR_MASK_ALPHA) != 0 ? 1 : 0);
     row_.resize(width_ * samples_ * 2);
+    constexpr std::size_t of_libraries = std::size_t{1} << 18;  // zlib's window, libpng's structs
+    held_ = 3 * row_.size() + of_libraries;                     // libpng has this row and the last
     block_width_ = width_;
     in_unit_range_ = true;
   }

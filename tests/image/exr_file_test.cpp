@@ -2,6 +2,7 @@
 #include "image/exr_file.h"
 
 #include <cstring>
+#include <fstream>
 #include <random>
 
 #include "base/error.h"
@@ -14,6 +15,9 @@
 #include <OpenEXR/ImfOutputFile.h>
 #include <OpenEXR/ImfTileDescription.h>
 #include <OpenEXR/ImfTiledOutputFile.h>
+#include <half.h>
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace gonio {
 namespace {
@@ -129,6 +133,49 @@ std::string written(const Folder& f, std::size_t rows_at_once, int threads, ExrW
   writer.finish();
   out.commit();
   return test::read_bytes(f / "w.exr");
+}
+
+/// A part through many tiles, or through lines of few columns, costs one tile and some lines, not all that it cuts.
+TEST(ExrFile, NeedsNoMemoryForAllThatAPartCutsThrough) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take the address space for themselves";
+#endif
+  const Folder f;
+  constexpr int side = 4096;
+  for (const int tile : {0, 1024}) {
+    Imf::Header header(side, side);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    header.channels().insert("Y", Imf::Channel(Imf::HALF));
+    std::vector<half> row(side);  // all rows are this one
+    Imf::FrameBuffer buffer;
+    buffer.insert("Y", Imf::Slice(Imf::HALF, reinterpret_cast<char*>(row.data()), sizeof(half), 0));
+    const std::string path = f / "large.exr";
+    if (tile == 0) {
+      Imf::OutputFile out(path.c_str(), header);
+      out.setFrameBuffer(buffer);
+      out.writePixels(side);
+    } else {
+      header.setTileDescription(Imf::TileDescription(tile, tile));
+      Imf::TiledOutputFile out(path.c_str(), header);
+      out.setFrameBuffer(buffer);
+      out.writeTiles(0, out.numXTiles() - 1, 0, out.numYTiles() - 1);
+    }
+    const auto image = open_exr(path);
+    const Rectangle part = tile == 0 ? Rectangle{5, 0, 2, side} : Rectangle{0, 1000, side, 2};
+    std::vector<float> numbers(part.size());
+    const std::vector<std::size_t> which{0};
+    const std::vector<float*> to{numbers.data()};
+    rlimit before{};
+    ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+    std::size_t pages = 0;
+    std::ifstream("/proc/self/statm") >> pages;
+    const rlim_t room = rlim_t{12} << 20;  // of 16 MB of tiles cut through, of 64 MB of lines
+    const rlimit limit{pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + room,
+                       before.rlim_max};
+    ASSERT_EQ(::setrlimit(RLIMIT_AS, &limit), 0);
+    EXPECT_NO_THROW(image->read(part, which, to)) << tile;
+    ::setrlimit(RLIMIT_AS, &before);
+  }
 }
 
 TEST(ExrFile, CountsItsHeaderInWhatItHolds) {

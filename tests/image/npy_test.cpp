@@ -149,6 +149,17 @@ TEST(Npy, RefusesHeadersThatLieInOneLine) {
   EXPECT_HAS(line("something else"), "other bytes");
 }
 
+TEST(Npy, SaysWhatItHolds) {
+  const Folder f;
+  const auto held = [&](const char* order, const char* shape) {
+    const std::string head = npy(header("<f8", order, shape), ""), path = f.write("a.npy", head);
+    std::filesystem::resize_file(path, head.size() + std::uintmax_t{8} * 3 * 2000 * 500);  // holes
+    return open_npy(path)->held();
+  };
+  EXPECT_EQ(held("False", "(3, 2000, 500)"), 8U * 2000 * 500) << "a row";
+  EXPECT_EQ(held("True", "(2000, 3, 500)"), 8U * 2000) << "a column";
+}
+
 TEST(Npy, EitherReadsOrRefusesDamagedFiles) {
   const Folder f;
   const std::string original = npy(header("<f2", "True", "(4, 5, 3)"), numbers<half>(true));

@@ -108,6 +108,7 @@ TEST(PngFile, KeepsNoTextInMemoryWhileItIsOpen) {
   const auto file = open_image(f / "a.png");
   EXPECT_LT(mallinfo2().uordblks - before, std::size_t{1} << 20) << "unpacked they are 18 MB";
   expect_numbers(*file, {0, 0, wide, high}, 1);
+  EXPECT_GE(file->held(), mallinfo2().uordblks - before);
 }
 
 TEST(PngFile, LeavesTransparencyOutAndKnowsGrey) {
