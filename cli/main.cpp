@@ -117,6 +117,8 @@ int main(int argc, char** argv) {
     return run(argc, argv);
   } catch (const gonio::Error& e) {
     return fail(e.code(), e.what());
+  } catch (const gonio::NameTaken& e) {
+    return fail(Exit::usage, e.what());
   } catch (const std::filesystem::filesystem_error& e) {
     return fail(Exit::bad_input, gonio::path_error(e).what());
   } catch (const std::system_error& e) {  // fmt::print and the like

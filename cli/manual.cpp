@@ -200,7 +200,7 @@ std::string fish(const std::vector<CommandText>& all) {
 
 void write(const std::filesystem::path& path, std::string_view text) {
   std::filesystem::create_directories(path.parent_path());
-  OutputFile out(path.string());
+  OutputFile out(path.string(), NamedBy::gonio);
   out.write(text);
   out.commit();
 }

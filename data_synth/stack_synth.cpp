@@ -52,7 +52,7 @@ class RowsOut {
           const std::vector<std::string>& channels,
           ImageFormat format,
           Storage storage)
-      : out_(path), width_(width), channels_(channels.size()) {
+      : out_(path, NamedBy::gonio), width_(width), channels_(channels.size()) {
     if (format == ImageFormat::npy) {
       out_.write(npy_header(channels_ == 1 ? std::vector{height, width}
                                            : std::vector{height, width, channels_}));
@@ -154,7 +154,7 @@ Stack synthesize_stack(const BoundModel& b, const StackSynthOptions& o, const st
   }
   begin_file("parameters.exr", names_of_values(b.model), ImageFormat::exr, Storage::single);
   if (normals) begin_file("normals.exr", {"X", "Y", "Z"}, ImageFormat::exr, Storage::single);
-  OutputFile document(stack.path);
+  OutputFile document(stack.path, NamedBy::gonio);
   document.write(to_json(stack));
 
   std::vector<Planes> images(pairs.size(), Planes(channels));

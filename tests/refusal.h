@@ -21,6 +21,9 @@ std::string refusal(Call&& call, Exit code = Exit::bad_input) {
     EXPECT_EQ(e.code(), code) << line;
     EXPECT_EQ(line.find('\n'), line.npos) << line;
     return line;
+  } catch (const NameTaken& e) {
+    EXPECT_EQ(code, Exit::usage) << e.what();
+    return e.what();
   }
 }
 

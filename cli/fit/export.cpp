@@ -66,9 +66,9 @@ Exit run_map(const ExportCall& o) {
         fmt::format("--to {}: a map is written for gltf, mitsuba, open_pbr and usd_preview",
                     name_of(o.target)));
   const fs::path output(o.output);
-  const std::string stem = output.stem().string();
+  const std::string name = output.filename().string();
   if (o.target != ExportTarget::gltf &&
-      (stem.find_first_of("\"<>&'@{}") != std::string::npos || printable(stem) != stem))
+      (name.find_first_of("\"<>&'@{}") != std::string::npos || printable(name) != name))
     throw wrong_usage(fmt::format(
         "-o {}: textures are named after it; expected a name of letters that can be seen, without "
         "quotes, brackets, & and @",
@@ -82,7 +82,8 @@ Exit run_map(const ExportCall& o) {
   std::list<OutputFile> textures;
   std::vector<OutputFile*> all{&out};
   for (std::size_t k = 0; k < e.textures.size(); ++k) {
-    textures.emplace_back((output.parent_path() / e.textures[k]).string()).write(files[k + 1]);
+    textures.emplace_back((output.parent_path() / e.textures[k]).string(), NamedBy::gonio)
+        .write(files[k + 1]);
     all.push_back(&textures.back());
   }
   commit_all(all);

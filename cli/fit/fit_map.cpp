@@ -150,8 +150,6 @@ Exit run(const FitMapCall& call) {
   if (!o.html.empty()) page.emplace(o.html);
   // Tiles stay beside it until it is whole: a run that was killed goes on from them.
   const std::string folder = o.output + ".tiles";
-  if (fs::is_symlink(folder))  // what lies elsewhere is no map's
-    throw bad_input(folder, "opening", "a link", "a folder of tiles, or none");
   const FolderLock lock(folder, FolderLock::Taken::is_refused);
   const ScratchFolder scratch(folder);  // taken away while the lock is held
   remove_other_tiles(stack, t, grid, folder);

@@ -16,13 +16,13 @@ OutputFiles::OutputFiles(const std::vector<std::string>& inputs,
   const std::filesystem::path path(page);
   const std::string data =
       page.empty() ? "" : std::filesystem::path(path).replace_extension(".page.json").string();
-  check_outputs(inputs, {document, page, data});
+  check_outputs(inputs, {document, page});
   if (!page.empty() && path.extension() != ".html")
     throw wrong_usage(fmt::format("--html {}: a page's name ends in .html", page));
   if (!document.empty()) document_.emplace(document);
   if (page.empty()) return;
   page_.emplace(page);
-  page_data_.emplace(data);
+  page_data_.emplace(data, NamedBy::gonio);
 }
 
 void OutputFiles::write_document(std::string_view text) {

@@ -33,10 +33,7 @@ constexpr std::string_view all_reports = "all";
 class MadeFolder {
  public:
   explicit MadeFolder(std::filesystem::path path) : path_(std::move(path)) {
-    std::error_code error;
-    made_ = std::filesystem::create_directories(path_, error);
-    if (error)
-      throw bad_input(path_.string(), "making the folder", error.message(), "a place to write");
+    made_ = make_folder(path_.string());
   }
   ~MadeFolder() {
     std::error_code not_empty;
@@ -59,9 +56,9 @@ class Files {
       : name_(name),
         path_((std::filesystem::path(folder) / name).string()),
         pictures_(path_),
-        page_(path_ + ".html"),
-        data_(path_ + ".json"),
-        rows_(path_ + ".csv") {}
+        page_(path_ + ".html", NamedBy::gonio),
+        data_(path_ + ".json", NamedBy::gonio),
+        rows_(path_ + ".csv", NamedBy::gonio) {}
   void write(const ReportFiles& r) {
     page_.write(r.html);
     data_.write(r.json + "\n");
@@ -89,8 +86,7 @@ class Files {
 
  private:
   void picture(const std::string& name, std::string_view bytes) {
-    expect_no_link(pictures_ / name);
-    files_.push_back(std::make_unique<OutputFile>(pictures_ / name));
+    files_.push_back(std::make_unique<OutputFile>(pictures_ / name, NamedBy::gonio));
     files_.back()->write(bytes);
     files_.back()->close();  // of a report's hundreds, none stays open
     written_.insert(name);
@@ -153,8 +149,8 @@ class IndexFiles {
  public:
   explicit IndexFiles(const std::filesystem::path& folder)
       : page_path_((folder / "index.html").string()),
-        page_(page_path_),
-        data_((folder / "index.json").string()) {}
+        page_(page_path_, NamedBy::gonio),
+        data_((folder / "index.json").string(), NamedBy::gonio) {}
   void write(const ReportIndex& index) {
     const std::string json = to_json(index);
     data_.write(json + "\n");

@@ -127,11 +127,15 @@ Exit run(const PlanCall& o) {
   use(o);
   if (!o.write.empty() && o.output.empty())
     throw wrong_usage("--write mtlx needs -o PLAN.json: the materials go beside it, as PLAN.mtlx");
+  if (!o.write.empty() && std::filesystem::path(o.output).extension() != ".json")
+    throw wrong_usage(fmt::format(
+        "--write mtlx -o {}: the plan's name ends in .json; two would share one NAME.mtlx",
+        o.output));
   const std::string materialx = o.write.empty() ? "" : beside(o.output, ".mtlx");
-  check_outputs({o.scene}, {o.output, o.page, materialx});
+  check_outputs({o.scene}, {o.output, o.page});
   OutputFiles files({o.scene}, o.output, o.page);
   std::optional<OutputFile> materials;
-  if (!materialx.empty()) materials.emplace(materialx);
+  if (!materialx.empty()) materials.emplace(materialx, NamedBy::gonio);
   Scene s = read_scene(o.scene);
   if (s.budget_ns && o.options.cost == Cost::operations)
     throw wrong_usage("--cost operations: the scene's budget_ns is a time");

@@ -269,7 +269,7 @@ Exit run(const ColumnsCall& o) {
     }
     progress.clear();
     for (const auto& [t, side] : all) {
-      write_file(side_path(t.path), side);
+      write_file(side_path(t.path), side, NamedBy::gonio);
       if (o.json)
         documents.push_back(to_json(t, side));
       else

@@ -167,7 +167,7 @@ Exit run(const ConvertCall& o) {
   options.channels = o.measured.channel_names();  // convert() picks them, and says what it drops
   AsMeasured measured = o.measured;
   measured.channels.clear();
-  check_outputs({o.input}, {o.output, side_path(o.output)});
+  check_outputs({o.input}, {o.output});
   Progress progress(o.quiet);
   progress("reading " + o.input);
   Table from = read_table(o.input, o.bins);

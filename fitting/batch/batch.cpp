@@ -85,11 +85,7 @@ void expect_apart(const Batch& b, const std::vector<std::string>& results) {
   for (const auto& in : b.inputs)
     if (fs::is_directory(in, none) && fs::equivalent(in, b.output, none))
       throw wrong_usage(fmt::format("{} is a folder of tables; results go elsewhere", b.output));
-  for (const auto& r : results) {
-    const std::string path = (fs::path(b.output) / r).string();
-    expect_no_input(path);
-    expect_no_link(path);
-  }
+  for (const auto& r : results) expect_no_input((fs::path(b.output) / r).string(), NamedBy::gonio);
 }
 
 // --- How many at a time ---
@@ -182,7 +178,7 @@ BatchRow failed(const std::string& table,
   if (was_there && !is_batch_document(to.path)) return row;  // it is somebody's own
   const std::string page = page_name(to.path);
   const bool has_page = was_there && is_own_page(page, to.path);
-  write_file(to.path, failure_document(row, made));
+  write_file(to.path, failure_document(row, made), NamedBy::gonio);
   if (has_page) remove_unless_input(page);
   return row;
 }
@@ -209,10 +205,10 @@ Fitted fitted(const Batch& b,
 
 /// Both or neither; the page last, so that it is no older than what it shows.
 void write(const Place& to, const Fitted& f) {
-  OutputFile document(to.path);
+  OutputFile document(to.path, NamedBy::gonio);
   document.write(f.document);
   std::optional<OutputFile> page;
-  if (!to.page_path.empty()) page.emplace(to.page_path).write(f.page);
+  if (!to.page_path.empty()) page.emplace(to.page_path, NamedBy::gonio).write(f.page);
   commit_all(std::array{&document, page ? &*page : nullptr});
 }
 
@@ -298,7 +294,8 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
     std::error_code error;
     fs::create_directories(b.output, error);
     if (error) throw bad_input(b.output, "making the folder", error.message(), "a place to write");
-    OutputFile(place("summary.csv"));  // nobody waits for a batch to learn that it has no place
+    OutputFile(place("summary.csv"),
+               NamedBy::gonio);  // nobody waits for a batch to learn that it has no place
   } catch (const Error&) {
     std::ranges::for_each(all, expect_there);  // that is the nearer mistake
     throw;
@@ -340,6 +337,8 @@ BatchResult fit_batch(const Batch& b, const BatchHooks& hooks) {
       fresh = fitted(b, hooks, tables[i], to, how);
     } catch (const Error& e) {
       rows[i] = failed(tables[i], to, made, e.code(), e.what());
+    } catch (const NameTaken&) {
+      throw;
     } catch (const std::bad_alloc&) {
       rows[i] =
           failed(tables[i], to, made, Exit::bad_input, printable(tables[i]) + ": out of memory");

@@ -82,7 +82,7 @@ bool is_made(const Found& d, const std::string& way) {
 
 void read(const std::string& folder, Found& d) {
   try {
-    d.read = read_document(place(folder, d.name));
+    d.read = read_document(path_beside(place(folder, d.name), d.name));  // no link to elsewhere
   } catch (const Error& e) {
     d.read.reset();
     d.fault = e.what();
@@ -237,7 +237,7 @@ void write_list(const std::string& folder, const BatchList& list) {
   if (fs::file_size(path, unknown) == text.size() && !unknown &&
       InputFile(path).read_rest() == text)
     return;
-  write_file(path, text);
+  write_file(path, text, NamedBy::gonio);
 }
 
 std::optional<BatchList> read_list(const std::string& folder) {
@@ -282,14 +282,15 @@ BatchSummary gather(const std::string& folder,
   BatchSummary s = summary_of(folder, list, std::move(known));
   if (!list && s.rows.empty() && s.left_out.empty())
     throw bad_input(folder, "entries", "no result of a fit", "documents of gonio fit -o DIR");
-  for (const char* name : summary_names) expect_no_link(place(folder, name));
   expect_own(folder, {}, {summary_names.begin(), summary_names.end()});
-  OutputFile csv(place(folder, "summary.csv")), page_data(place(folder, page_data_name));
+  OutputFile csv(place(folder, "summary.csv"), NamedBy::gonio),
+      page_data(place(folder, page_data_name), NamedBy::gonio);
   csv.write(batch_csv(s.rows));
   page_data.write(batch_json(s, true));
   page_data.write("\n");
   std::optional<OutputFile> html;
-  if (page) html.emplace(place(folder, "summary.html")).write(page(s, title_of(folder)));
+  if (page)
+    html.emplace(place(folder, "summary.html"), NamedBy::gonio).write(page(s, title_of(folder)));
   commit_all(std::array{&csv, &page_data, html ? &*html : nullptr});
   return s;
 }

@@ -42,6 +42,8 @@ void expect_own(const std::string& folder,
   std::error_code none;
   for (const auto& name : results) {
     const std::string path = (std::filesystem::path(folder) / name).string();
+    if (std::filesystem::is_symlink(path, none))
+      throw bad_input(path, "writing", "a link", "a file of the folder itself (remove the link)");
     if (!std::filesystem::is_regular_file(path, none)) continue;
     // Of a folder of results a look at the beginning is enough.
     const bool is_known = own.contains(name);

@@ -132,7 +132,7 @@ class MitsubaMap : public MapTarget {
                                  const std::string& output) override {
     std::vector<std::string> all(1);
     const auto texture = [&](const std::string& what, std::vector<std::vector<float>> planes) {
-      e.textures.push_back(texture_name(output, ExportTarget::mitsuba, what, "exr"));
+      e.textures.push_back(texture_name(output, what, "exr"));
       const std::vector<std::string> channels = planes.size() == 1
                                                     ? std::vector<std::string>{"Y"}
                                                     : std::vector<std::string>{"R", "G", "B"};

@@ -36,11 +36,9 @@ double channel_of(const std::vector<double>& values, std::size_t c) {
   return values.empty() ? 0 : values[values.size() == 3 ? c : 0];
 }
 std::string texture_name(const std::string& output,
-                         ExportTarget target,
                          const std::string& what,
                          const std::string& ending) {
-  return fmt::format("{}_{}_{}.{}", std::filesystem::path(output).stem().string(), name_of(target),
-                     what, ending);
+  return fmt::format("{}_{}.{}", std::filesystem::path(output).filename().string(), what, ending);
 }
 
 namespace {
@@ -130,7 +128,7 @@ class EightBitTextures : public MapTarget {
                                       {"highlight", &textures_.tint},
                                       {"normal", &textures_.normals}}) {
       if (image->pixels.empty()) continue;
-      e.textures.push_back(texture_name(output, target_, name, "png"));
+      e.textures.push_back(texture_name(output, name, "png"));
       all.push_back(png_bytes(*image));
     }
     all[0] = target_ == ExportTarget::usd_preview ? usd_preview_file_of(e, stack)

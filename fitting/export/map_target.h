@@ -55,9 +55,8 @@ class MapTarget {
 /// \param e  has the map's size and model
 std::unique_ptr<MapTarget> map_target(ExportTarget, const MapExport& e, const MapSummary&);
 std::unique_ptr<MapTarget> mitsuba_map(const MapExport&, const MapSummary&);
-/// Name of a texture beside an output.
+/// Name of a texture beside an output, after its whole name: files of two endings in one folder have textures of their own.
 std::string texture_name(const std::string& output,
-                         ExportTarget,
                          const std::string& what,
                          const std::string& ending);
 

@@ -5,8 +5,10 @@
 #include <filesystem>
 #include <limits>
 #include <map>
+#include <memory>
 #include <mutex>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include "base/earlier_file.h"
@@ -69,6 +71,59 @@ std::vector<Rectangle> parts_of(const Rectangle& place, const StackReader& stack
   return parts;
 }
 
+/// Tiles of a row with what lies between them.
+Rectangle place_of(std::span<const Tile> of_row, const TileGrid& grid) {
+  Rectangle place = grid.place(of_row.front());
+  for (const Tile& t : of_row) {
+    const Rectangle p = grid.place(t);
+    const std::size_t end = std::max(place.x + place.width, p.x + p.width);
+    place.x = std::min(place.x, p.x);
+    place.width = end - place.x;
+  }
+  return place;
+}
+
+/// Tiles of a row in groups that are fitted together: all of them where their results have room, for of images in scan lines a group
+/// costs the reading of whole rows; else so many that their files may all be open.
+std::vector<std::span<const Tile>> fitted_together(std::span<const Tile> of_row,
+                                                   const TileGrid& grid,
+                                                   std::size_t most_texels) {
+  constexpr std::size_t most_open = 64;
+  if (place_of(of_row, grid).size() <= most_texels) return {of_row};
+  std::vector<std::span<const Tile>> groups;
+  for (std::size_t k = 0; k < of_row.size(); k += most_open)
+    groups.push_back(of_row.subspan(k, std::min(most_open, of_row.size() - k)));
+  return groups;
+}
+
+/// Rows of a place whose results have room, of whole blocks where these are no higher.
+std::vector<Rectangle> strips_of(const Rectangle& place,
+                                 const StackReader& stack,
+                                 std::size_t most_texels) {
+  const std::size_t height = whole_blocks(most_texels / place.width, stack.block_height());
+  std::vector<Rectangle> strips;
+  for (std::size_t y = 0; y < place.height; y += height)
+    strips.push_back({place.x, place.y + y, place.width, std::min(height, place.height - y)});
+  return strips;
+}
+
+/// Tile that is being written, strip by strip.
+struct TileFile {
+  OutputFile out;
+  ExrWriter writer;
+  TileFile(const std::string& path,
+           const Rectangle& place,
+           std::vector<ExrChannel> channels,
+           const MapAttributes& attributes)
+      : out(path, NamedBy::gonio),
+        writer(out,
+               place.width,
+               place.height,
+               std::move(channels),
+               attributes,
+               ExrWriter::Packing::none) {}
+};
+
 /// Tiles to be fitted, by their rows; those that are there are looked at.
 std::map<std::size_t, std::vector<Tile>> missing_of(std::span<const Tile> tiles,
                                                     const MapAttributes& map,
@@ -110,16 +165,21 @@ void remove_other_tiles(const StackReader& stack,
   std::error_code none;
   const auto there = tiles_in(folder, none);
   const auto path_of = [&](const Tile& t) { return (fs::path(folder) / file_name(t)).string(); };
-  for (const Tile& t : there) expect_no_input(path_of(t));  // before anything goes
-  for (const Tile& t : there) {
+  std::vector<std::string> others;
+  for (const Tile& t : there) {  // before anything goes
     const std::string path = path_of(t);
+    expect_no_input(path, NamedBy::gonio);
     may_replace(path);
+    if (!is_tile(path))
+      throw bad_input(path, "header", "no tile of a map",
+                      "only tiles of gonio fit_map in this folder (move that file)");
     try {
       expect_of(attributes_of(map, grid, t), read_exr_header(path), path);
     } catch (const Error&) {
-      remove_unless_input(path);
+      others.push_back(path);
     }
   }
+  for (const auto& path : others) remove_unless_input(path);
 }
 
 MapCount fit_tiles(const StackReader& stack,
@@ -128,7 +188,8 @@ MapCount fit_tiles(const StackReader& stack,
                    std::span<const Tile> tiles,
                    const std::string& folder,
                    const std::function<void(const MapCount&)>& progress,
-                   const TexelNoise& noise) {
+                   const TexelNoise& noise,
+                   std::size_t most_results) {
   check(options, stack.channels().size());
   const TexelFit layout = layout_of(options, stack.channels().size());
   const MapAttributes map = attributes_of(stack, options);
@@ -158,38 +219,39 @@ MapCount fit_tiles(const StackReader& stack,
     });
   };
 
-  for (const auto& [row, of_row] : missing) {
-    Rectangle place = grid.place(of_row.front());
-    for (const Tile& t : of_row) {
-      const Rectangle p = grid.place(t);
-      const std::size_t end = std::max(place.x + place.width, p.x + p.width);
-      place.x = std::min(place.x, p.x);
-      place.width = end - place.x;
+  const MapPlanes of_one({0, 0, 1, 1}, layout, stack.channels());
+  const std::size_t most_texels = most_results / of_one.bytes_of_texel();
+  for (const auto& [row, of_row] : missing)
+    for (const auto& some : fitted_together(of_row, grid, most_texels)) {
+      const Rectangle place = place_of(some, grid);
+      std::vector<std::unique_ptr<TileFile>> files(some.size());
+      for (const Rectangle& strip : strips_of(place, stack, most_texels)) {
+        MapPlanes planes(strip, layout, stack.channels());
+        const auto parts = parts_of(strip, stack);
+        // The next part is read while this one is fitted.
+        std::array<StackPart, 2> samples;
+        stack.read(parts[0], samples[0]);
+        for (std::size_t k = 0; k < parts.size(); ++k)
+          tbb::parallel_invoke(
+              [&] {
+                if (k + 1 < parts.size()) stack.read(parts[k + 1], samples[(k + 1) % 2]);
+              },
+              [&] { fit_part(samples[k % 2], parts[k], planes); });
+        tbb::parallel_for(std::size_t{0}, some.size(), [&](std::size_t k) {
+          const Tile& tile = some[k];
+          const Rectangle p = grid.place(tile);
+          if (!files[k])
+            files[k] =
+                std::make_unique<TileFile>((fs::path(folder) / file_name(tile)).string(), p,
+                                           planes.channels(), attributes_of(map, grid, tile));
+          planes.write(files[k]->writer, {p.x, strip.y, p.width, strip.height});
+          if (strip.y + strip.height < p.y + p.height) return;
+          files[k]->writer.finish();
+          files[k]->out.commit();
+          files[k].reset();
+        });
+      }
     }
-    MapPlanes planes(place, layout, stack.channels());
-    const auto parts = parts_of(place, stack);
-    // The next part is read while this one is fitted.
-    std::array<StackPart, 2> samples;
-    stack.read(parts[0], samples[0]);
-    for (std::size_t k = 0; k < parts.size(); ++k)
-      tbb::parallel_invoke(
-          [&] {
-            if (k + 1 < parts.size()) stack.read(parts[k + 1], samples[(k + 1) % 2]);
-          },
-          [&] { fit_part(samples[k % 2], parts[k], planes); });
-    tbb::parallel_for(std::size_t{0}, of_row.size(), [&](std::size_t k) {
-      const Tile& tile = of_row[k];
-      const Rectangle p = grid.place(tile);
-      const std::string path = (fs::path(folder) / file_name(tile)).string();
-      expect_no_link(path);
-      OutputFile out(path);
-      ExrWriter writer(out, p.width, p.height, planes.channels(), attributes_of(map, grid, tile),
-                       ExrWriter::Packing::none);
-      planes.write(writer, p);
-      writer.finish();
-      out.commit();
-    });
-  }
   return count;
 }
 

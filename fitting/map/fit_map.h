@@ -30,8 +30,8 @@ struct MapCount {
   std::size_t texels = 0, done = 0;  ///< of the tiles that are not kept
 };
 
-/// Removes tiles of any other map from a folder: those that a run left which ended early.  None goes, and it is wrong usage, where one
-/// is an input.
+/// Removes tiles of any other map from a folder: those that a run left which ended early.  None goes where one is an input, or
+/// where a file of a tile's name is none that gonio made.
 void remove_other_tiles(const StackReader&,
                         const TexelOptions&,
                         const TileGrid&,
@@ -39,11 +39,12 @@ void remove_other_tiles(const StackReader&,
 
 /// Fits tiles of a stack into a folder, which is made where it is missing; one that is there already, of the same stack, options, version and
 /// grid, is kept.  A tile is the same to the bit whatever the threads, the other tiles and the runs that were killed before; so are its
-/// texels whatever the grid.  Memory: one row of tiles' results, and 128 MB of samples.
+/// texels whatever the grid.  Memory: that of results, and 128 MB of samples, whatever the tiles' size.
 ///
 /// \param tiles     of the grid
 /// \param progress  called by one thread at a time
 /// \param noise     of a survey of the whole stack, by which texels are judged; none: their misfit is not known
+/// \param most_results  memory of results that wait to be written [bytes]: tiles that need more are written strip by strip
 /// \throws Error  bad_input for a tile in the folder that is of anything else: it is not overwritten
 MapCount fit_tiles(const StackReader&,
                    const TexelOptions&,
@@ -51,6 +52,7 @@ MapCount fit_tiles(const StackReader&,
                    std::span<const Tile> tiles,
                    const std::string& folder,
                    const std::function<void(const MapCount&)>& progress = {},
-                   const TexelNoise& noise = {});
+                   const TexelNoise& noise = {},
+                   std::size_t most_results = std::size_t{1} << 28);
 
 }  // namespace gonio

@@ -242,7 +242,10 @@ MapDocument gather_tiles(const std::string& folder, OutputFile& out, int threads
   attributes["gonio:schema"] = "gonio.map/1";
   ExrWriter writer(out, grid.width, grid.height, channels, attributes, ExrWriter::Packing::runs,
                    threads);
-  constexpr std::size_t at_once = 64;
+  // Of a stranger's tiles with thousands of channels fewer rows.
+  constexpr std::size_t most_rows = 64, most_numbers = std::size_t{1} << 25;
+  const std::size_t at_once =
+      std::clamp(most_numbers / (names.size() * grid.width), std::size_t{1}, most_rows);
   std::vector<std::vector<float>> rows(names.size());
   std::vector<float> part;
   std::vector<float*> into(names.size());

@@ -18,7 +18,7 @@ namespace gonio {
 
 namespace {
 
-constexpr std::string_view kPrefix = "tile_", kSuffix = ".exr";
+constexpr std::string_view kPrefix = "tile_", kSuffix = ".exr", kSchema = "gonio.map_tile/1";
 
 std::string pair(std::size_t a, std::size_t b) {
   return fmt::format("{},{}", a, b);
@@ -74,7 +74,7 @@ MapAttributes map_attributes(const Image& header, const std::string& path) {
 
 MapAttributes attributes_of(const MapAttributes& map, const TileGrid& grid, const Tile& tile) {
   MapAttributes all = map;
-  all["gonio:schema"] = "gonio.map_tile/1";
+  all["gonio:schema"] = kSchema;
   all["gonio:size"] = pair(grid.width, grid.height);
   all["gonio:tile_size"] = pair(grid.tile_width, grid.tile_height);
   all["gonio:tile"] = pair(tile.column, tile.row);
@@ -100,8 +100,10 @@ std::optional<Tile> tile_of_name(const std::string& name) {
 
 std::set<Tile> tiles_in(const std::string& folder, std::error_code& failed) {
   std::set<Tile> there;
+  std::error_code unknown;
   for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
-    if (const auto t = tile_of_name(entry.path().filename().string())) there.insert(*t);
+    if (const auto t = tile_of_name(entry.path().filename().string()); t && entry.exists(unknown))
+      there.insert(*t);
   return there;
 }
 
@@ -109,6 +111,16 @@ TileGrid grid_of(const Image& header, const std::string& path) {
   const auto size = pair_in(header, "gonio:size", path);
   const auto tile_size = pair_in(header, "gonio:tile_size", path);
   return {size[0], size[1], tile_size[0], tile_size[1]};
+}
+
+bool is_tile(const std::string& path) {
+  try {
+    const auto attributes = read_exr_header(path).attributes;
+    const auto schema = attributes.find("gonio:schema");
+    return schema != attributes.end() && schema->second == kSchema;
+  } catch (const Error&) {
+    return false;
+  }
 }
 
 namespace {
@@ -163,6 +175,13 @@ MapPlanes::MapPlanes(const Rectangle& part,
   numbers("rms");
   numbers("misfit");
   marks("outcome");
+}
+
+std::size_t MapPlanes::bytes_of_texel() const {
+  std::size_t bytes = 0;
+  for (const auto& p : planes_)
+    bytes += p.marks.empty() ? sizeof(p.numbers[0]) : sizeof(p.marks[0]);
+  return bytes;
 }
 
 void MapPlanes::put(const TexelFit& fit, const Rectangle& of, std::size_t first) {

@@ -47,11 +47,13 @@ MapAttributes attributes_of(const MapAttributes& map, const TileGrid&, const Til
 /// "tile_COLUMN_ROW.exr", and back; no value of any other name
 std::string file_name(const Tile&);
 std::optional<Tile> tile_of_name(const std::string& file_name);
-/// Tiles whose files lie in a folder, by their names alone.
+/// Tiles whose files lie in a folder, by their names alone; a link that leads nowhere is none.
 /// \param failed  why the folder cannot be read
 std::set<Tile> tiles_in(const std::string& folder, std::error_code& failed);
 /// Grid that a tile's file says that it is of.
 TileGrid grid_of(const Image& header, const std::string& path);
+/// True of a tile's file, of whichever map.
+bool is_tile(const std::string& path);
 /// Refuses a tile of another stack, of other options, another version or another grid.
 /// \param header  of its file, without planes
 void expect_of(const MapAttributes& tile, const Image& header, const std::string& path);
@@ -65,6 +67,8 @@ class MapPlanes {
             const TexelFit& layout,
             const std::vector<std::string>& channels);
 
+  /// Bytes that a texel takes.
+  std::size_t bytes_of_texel() const;
   /// Takes texels' results over; from any thread, each texel once.
   /// \param of     part that the texels are of, within this one
   /// \param first  the first texel's number in that part, row by row

@@ -11,7 +11,4 @@ namespace gonio {
 /// \return false where it is an input
 bool remove_unless_input(const std::string& path);
 
-/// Refuses a name to write that a link has: in a folder of a stranger it would lead to a file elsewhere.
-void expect_no_link(const std::string& path);
-
 }  // namespace gonio

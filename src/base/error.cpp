@@ -22,4 +22,6 @@ Error wrong_usage(const std::string& line) {
   return {Exit::usage, printable(short_words, 1000)};
 }
 
+NameTaken::NameTaken(const std::string& line) : std::runtime_error(wrong_usage(line).what()) {}
+
 }  // namespace gonio

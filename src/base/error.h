@@ -34,6 +34,13 @@ class Error : public std::runtime_error {
   Exit code_;
 };
 
+/// A name to write that a file has which the run reads, or another that it writes: wrong usage, whichever document names the file.
+/// So it is no Error, whose words whoever reads a document takes for what is wrong in that.
+class NameTaken : public std::runtime_error {
+ public:
+  explicit NameTaken(const std::string& line);
+};
+
 /// "FILE: PLACE: found FOUND, expected EXPECTED", each made printable (base/text.h), since any may
 /// come from the file, and cut where it is long, the file's name excepted.
 Error bad_input(const std::string& file,

@@ -1,5 +1,6 @@
 #include "base/file.h"
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cctype>
@@ -16,6 +17,7 @@
 #include <set>
 #include <thread>
 #include <utility>
+#include <vector>
 
 #include "base/earlier_file.h"
 #include "base/error.h"
@@ -33,13 +35,14 @@
 namespace gonio {
 namespace {
 
-/// Path behind the links that a path leads through; nothing need be there yet.  Of a circle of links one of them.
-std::filesystem::path behind_links(std::filesystem::path path) {
+/// A path and those that it leads to through links, to the one that is none; nothing need be there yet.  Of a circle of links some.
+std::vector<std::filesystem::path> along_links(std::filesystem::path path) {
+  std::vector<std::filesystem::path> all{std::move(path)};
   std::error_code none_there;
-  constexpr int most = 40;  // as the system follows
-  for (int k = 0; k < most && std::filesystem::is_symlink(path, none_there); ++k)
-    path = path.parent_path() / std::filesystem::read_symlink(path, none_there);
-  return path;
+  constexpr std::size_t most = 40;  // as the system follows
+  while (all.size() <= most && std::filesystem::is_symlink(all.back(), none_there))
+    all.push_back(all.back().parent_path() / std::filesystem::read_symlink(all.back(), none_there));
+  return all;
 }
 
 std::filesystem::path folder_of(const std::filesystem::path& file) {
@@ -54,13 +57,24 @@ struct Entry {
   std::string name;
   auto operator<=>(const Entry&) const = default;
 };
-Entry entry_of(const std::string& path) {
-  const auto at = behind_links(path);
+Entry entry_of(const std::filesystem::path& at) {
   std::error_code none;
   if (struct stat s{}; ::stat(folder_of(at).c_str(), &s) == 0)
     return {s.st_dev, s.st_ino, at.filename().string()};
   return {0, 0,
           std::filesystem::weakly_canonical(std::filesystem::absolute(at, none), none).string()};
+}
+
+using EntryList = std::vector<Entry>;
+/// Names that are taken by whoever opens a path: of the links that it leads through, too.  A name of gonio's own is never followed.
+EntryList entries_of(const std::string& path, NamedBy by = NamedBy::user) {
+  if (by == NamedBy::gonio) return {entry_of(path)};
+  EntryList all;
+  for (const auto& at : along_links(path)) all.push_back(entry_of(at));
+  return all;
+}
+bool any_in(const std::set<Entry>& names, const EntryList& entries) {
+  return std::ranges::any_of(entries, [&](const Entry& e) { return names.contains(e); });
 }
 
 /// Files that the run reads and those that it is writing, while a FileGuard lives.
@@ -70,14 +84,14 @@ struct Guarded {
 std::mutex guarding;
 std::optional<Guarded> guarded;
 
-/// act(files, entry of the path), where a FileGuard lives.
+/// act(files), where a FileGuard lives.
 template <class Act>
-void with_guarded(const std::string& path, const Act& act) {
+void with_guarded(const Act& act) {
   const std::lock_guard lock(guarding);
-  if (guarded) act(*guarded, entry_of(path));
+  if (guarded) act(*guarded);
 }
-Error overwritten(const std::string& path) {
-  return wrong_usage(fmt::format("{} is an input; it would be overwritten", path));
+NameTaken overwritten(const std::string& path) {
+  return NameTaken(fmt::format("{} is an input; it would be overwritten", path));
 }
 
 bool follows_paths = false;
@@ -95,33 +109,39 @@ FileGuard::~FileGuard() {
 }
 
 void will_read(const std::string& path) {
-  with_guarded(path, [&](Guarded& g, const Entry& e) {
-    if (g.replaceable.contains(e)) return;
-    if (g.outputs.contains(e)) throw overwritten(path);
-    g.inputs.insert(e);
+  with_guarded([&](Guarded& g) {
+    const auto names = entries_of(path);
+    if (g.replaceable.contains(names.front())) return;
+    if (any_in(g.outputs, names)) throw overwritten(path);
+    g.inputs.insert(names.begin(), names.end());
   });
 }
 void may_replace(const std::string& path) {
-  with_guarded(path, [](Guarded& g, const Entry& e) { g.replaceable.insert(e); });
+  with_guarded([&](Guarded& g) { g.replaceable.insert(entry_of(path)); });
 }
-void expect_no_input(const std::string& path) {
-  with_guarded(path, [&](Guarded& g, const Entry& e) {
-    if (g.inputs.contains(e)) throw overwritten(path);
+void expect_no_input(const std::string& path, NamedBy by) {
+  with_guarded([&](Guarded& g) {
+    if (any_in(g.inputs, entries_of(path, by))) throw overwritten(path);
   });
 }
 bool remove_unless_input(const std::string& path) {
   bool is_input = false;
-  with_guarded(path, [&](Guarded& g, const Entry& e) { is_input = g.inputs.contains(e); });
+  with_guarded([&](Guarded& g) { is_input = g.inputs.contains(entry_of(path)); });
   if (!is_input) ::unlink(path.c_str());
   return !is_input;
 }
-void expect_no_link(const std::string& path) {
-  struct stat s {};
-  if (::lstat(path.c_str(), &s) == 0 && S_ISLNK(s.st_mode))
-    throw bad_input(path, "writing", "a link", "a file of the folder itself (remove the link)");
+bool make_folder(const std::string& path) {
+  if (struct stat s{}; ::lstat(path.c_str(), &s) == 0 && S_ISLNK(s.st_mode))
+    throw bad_input(path, "writing", "a link",
+                    "a folder of gonio's own, or none (remove the link)");
+  std::error_code failed;
+  const bool made = std::filesystem::create_directories(path, failed);
+  if (failed && !std::filesystem::is_directory(path))
+    throw bad_input(path, "writing", failed.message(), "a folder that can be written");
+  return made;
 }
 bool same_place(const std::string& a, const std::string& b) {
-  return entry_of(a) == entry_of(b);
+  return entries_of(a).back() == entries_of(b).back();
 }
 
 void follow_paths() {
@@ -319,23 +339,28 @@ void sync_folder(const std::filesystem::path& folder) {
 
 }  // namespace
 
-OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
+OutputFile::OutputFile(std::string path, NamedBy by) : path_(std::move(path)), by_(by) {
   if (path_.empty()) throw bad_input("''", "writing", "no name", "the name of a file");
   struct stat old {};
-  const bool replaces = ::stat(path_.c_str(), &old) == 0;
+  const bool is_mine = by == NamedBy::gonio;
+  bool replaces = (is_mine ? ::lstat(path_.c_str(), &old) : ::stat(path_.c_str(), &old)) == 0;
   if (replaces) {
     if (S_ISDIR(old.st_mode))
       throw bad_input(path_, "writing", "a directory", "the name of a file");
-    if (!S_ISREG(old.st_mode))
+    if (S_ISLNK(old.st_mode))
+      replaces = false;  // whose rights are nobody's
+    else if (!S_ISREG(old.st_mode))
       throw bad_input(path_, "writing", "a device or pipe", "the name of a file");
   } else if (errno != ENOENT) {
     fail("writing");
   }
-  with_guarded(path_, [&](Guarded& g, const Entry& e) {
-    if (g.inputs.contains(e)) throw overwritten(path_);
-    if (g.outputs.contains(e)) throw wrong_usage(fmt::format("{} is named for two outputs", path_));
+  with_guarded([&](Guarded& g) {
+    const auto names = entries_of(path_, by_);
+    if (any_in(g.inputs, names)) throw overwritten(path_);
+    if (any_in(g.outputs, names))
+      throw NameTaken(fmt::format("{} is named for two outputs", path_));
   });
-  target_ = behind_links(path_).string();
+  target_ = is_mine ? path_ : along_links(path_).back().string();
   const auto folder = folder_of(target_);
   remove_left_over(folder);
   static std::atomic<unsigned> counter = 0;
@@ -360,7 +385,12 @@ OutputFile::OutputFile(std::string path) : path_(std::move(path)) {
     leave(temporary_.c_str());
     fail("writing");
   }
-  with_guarded(path_, [&](Guarded& g, const Entry& e) { claimed_ = g.outputs.insert(e).second; });
+  with_guarded([&](Guarded& g) {
+    const auto names = entries_of(path_, by_);
+    if (any_in(g.outputs, names)) return;
+    g.outputs.insert(names.begin(), names.end());
+    claimed_ = true;
+  });
 }
 
 OutputFile::~OutputFile() {
@@ -372,7 +402,9 @@ OutputFile::~OutputFile() {
 
 void OutputFile::release() {
   if (std::exchange(claimed_, false))
-    with_guarded(path_, [](Guarded& g, const Entry& e) { g.outputs.erase(e); });
+    with_guarded([&](Guarded& g) {
+      for (const auto& name : entries_of(path_, by_)) g.outputs.erase(name);
+    });
 }
 
 void OutputFile::fail(const std::string& doing) const {
@@ -428,12 +460,10 @@ void OutputFile::commit() {
 
 FolderLock::FolderLock(const std::string& folder, Taken taken) {
   for (;;) {
-    std::error_code failed;
-    if (taken == Taken::is_refused) std::filesystem::create_directories(folder, failed);
+    if (taken == Taken::is_refused) make_folder(folder);
     folder_ = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
     if (folder_ < 0)
-      throw bad_input(folder, taken == Taken::waits ? "opening" : "writing",
-                      failed ? failed.message() : std::strerror(errno),
+      throw bad_input(folder, taken == Taken::waits ? "opening" : "writing", std::strerror(errno),
                       "a folder that can be written");
     const int how = LOCK_EX | (taken == Taken::is_refused ? LOCK_NB : 0);
     int locked = 0;
@@ -494,8 +524,8 @@ void commit_all(std::span<OutputFile* const> files) {
     if (f) f->commit();
 }
 
-void write_file(const std::string& path, std::string_view bytes) {
-  OutputFile out(path);
+void write_file(const std::string& path, std::string_view bytes, NamedBy by) {
+  OutputFile out(path, by);
   out.write(bytes);
   out.commit();
 }

@@ -58,8 +58,15 @@ class InputFile {
 /// Fails as reading would where there is no file, nor folder, of that path.
 void expect_there(const std::string& path);
 
+/// Who chose the name of a file to write, and with it what becomes of a link there.
+enum class NamedBy {
+  user,  ///< a link is followed, as by any other program
+  gonio  ///< beside a file, or in a folder, that may be a stranger's: a link is replaced, for it
+         ///< may lead to any file of the user's
+};
+
 /// While one of these lives, no file that is read is replaced by one that is written, and no two that are written have one name,
-/// whatever links lead to it: an InputFile of a name that an OutputFile has, or the other way round, is wrong usage.  The program
+/// whatever links lead to it: an InputFile of a name that an OutputFile has, or the other way round, throws NameTaken.  The program
 /// has one for its whole run; of two at a time the later does nothing.
 class FileGuard {
  public:
@@ -75,8 +82,8 @@ class FileGuard {
 void will_read(const std::string& path);
 /// Names an earlier result: the run may read it and then replace it.
 void may_replace(const std::string& path);
-/// Refuses, as wrong usage, a name to write that a file has that is read.
-void expect_no_input(const std::string& path);
+/// Refuses, as NameTaken, a name to write that a file has that is read.
+void expect_no_input(const std::string& path, NamedBy by = NamedBy::user);
 /// True where both are one name in one folder, behind their links.
 bool same_place(const std::string& a, const std::string& b);
 
@@ -87,11 +94,10 @@ std::string path_beside(const std::string& document, const std::string& name);
 void follow_paths();
 
 /// A file being made under a temporary name beside its own; it appears under its own name when
-/// commit() has succeeded and leaves nothing behind otherwise.  A link is followed, not replaced;
-/// a directory, device or pipe is refused.
+/// commit() has succeeded and leaves nothing behind otherwise.  A directory, device or pipe is refused.
 class OutputFile {
  public:
-  explicit OutputFile(std::string path);
+  explicit OutputFile(std::string path, NamedBy by = NamedBy::user);
   ~OutputFile();
   OutputFile(const OutputFile&) = delete;
   OutputFile& operator=(const OutputFile&) = delete;
@@ -113,13 +119,15 @@ class OutputFile {
  private:
   [[noreturn]] void fail(const std::string& doing) const;
   void release();
-  std::string path_, target_, temporary_;  ///< target_: path_ after its links
+  std::string path_, target_,
+      temporary_;  ///< target_: path_, after its links where they are followed
+  NamedBy by_;
   std::FILE* file_ = nullptr;
   bool committed_ = false, claimed_ = false;  ///< claimed_: the name is this file's (FileGuard)
   int lost_ = 0;                              ///< why a write_at() failed; 0: none did
 };
 
-/// A folder that no other process locks meanwhile, where its file system has locks.  Who does not wait makes it where it lacks.
+/// A folder that no other process locks meanwhile, where its file system has locks.  Who does not wait makes it where it lacks (make_folder).
 class FolderLock {
  public:
   enum class Taken { waits, is_refused };
@@ -143,6 +151,11 @@ void remove_unfinished_files_on_signals();
 void commit_all(std::span<OutputFile* const> files);
 
 /// The whole of a small file at once.
-void write_file(const std::string& path, std::string_view bytes);
+void write_file(const std::string& path, std::string_view bytes, NamedBy by = NamedBy::user);
+
+/// Makes a folder, where it is not there, whose name gonio chose.  A link is refused: what gonio puts there, and takes away, lies in
+/// a folder of its own.
+/// \return whether it was made
+bool make_folder(const std::string& path);
 
 }  // namespace gonio

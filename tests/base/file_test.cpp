@@ -174,6 +174,36 @@ TEST(OutputFile, FollowsLinks) {
             std::string::npos);
 }
 
+TEST(OutputFile, ReplacesALinkWhereGonioChoseTheName) {
+  const Folder folder;
+  folder.write("victim", "mine");
+  ASSERT_EQ(::chmod((folder / "victim").c_str(), 0400), 0);
+  for (const char* to : {"victim", "nothing", "link"}) {
+    std::filesystem::remove(folder / "link");
+    std::filesystem::create_symlink(to, folder / "link");
+    write_file(folder / "link", "new", NamedBy::gonio);
+    EXPECT_FALSE(std::filesystem::is_symlink(folder / "link")) << to;
+    EXPECT_EQ(test::read_bytes(folder / "link"), "new") << to;
+    EXPECT_NE(std::filesystem::status(folder / "link").permissions(), std::filesystem::perms{0400})
+        << "those of the file that the link leads to";
+  }
+  EXPECT_EQ(test::read_bytes(folder / "victim"), "mine");
+  EXPECT_FALSE(std::filesystem::exists(folder / "nothing"));
+}
+
+TEST(MakeFolder, RefusesALink) {
+  const Folder folder;
+  std::filesystem::create_directory(folder / "elsewhere");
+  for (const char* to : {"elsewhere", "nothing"}) {
+    std::filesystem::remove(folder / "link");
+    std::filesystem::create_symlink(to, folder / "link");
+    EXPECT_HAS(refusal([&] { make_folder(folder / "link"); }), "link: writing: found a link");
+  }
+  EXPECT_TRUE(make_folder(folder / "new"));
+  EXPECT_FALSE(make_folder(folder / "new")) << "it is there";
+  EXPECT_HAS(refusal([&] { make_folder(folder.write("file", "x")); }), "file: writing: found");
+}
+
 TEST(OutputFile, IsReadableByWhomTheUserLets) {
   const Folder folder;
   const auto before = ::umask(022);
@@ -377,6 +407,41 @@ TEST(FileGuard, KeepsWhatIsReadFromBeingWritten) {
   }
   write_file(path, "without a guard");
   EXPECT_EQ(test::read_bytes(path), "without a guard");
+}
+
+TEST(FileGuard, KnowsAnInputByEachLinkThatLeadsToIt) {
+  const Folder folder;
+  folder.write("in", "x");
+  std::filesystem::create_symlink("in", folder / "near");
+  std::filesystem::create_symlink("near", folder / "far");
+  std::filesystem::create_symlink("in", folder / "planted");
+  const FileGuard guard;
+  InputFile in(folder / "far");
+  for (const char* name : {"in", "near", "far"})
+    EXPECT_HAS(refusal([&] { OutputFile out(folder / name, NamedBy::gonio); }, Exit::usage),
+               "would be overwritten");
+  EXPECT_HAS(refusal([&] { OutputFile out(folder / "planted"); }, Exit::usage),
+             "would be overwritten");
+  write_file(folder / "planted", "new", NamedBy::gonio);
+  EXPECT_EQ(test::read_bytes(folder / "in"), "x");
+}
+
+TEST(FileGuard, KeepsALinkToAnOutputFromBeingOneItself) {
+  const Folder folder;
+  std::filesystem::create_symlink("there", folder / "link");
+  const FileGuard guard;
+  OutputFile one(folder / "link");
+  for (const char* name : {"link", "there"})
+    EXPECT_HAS(refusal([&] { OutputFile two(folder / name, NamedBy::gonio); }, Exit::usage),
+               "two outputs");
+}
+
+TEST(FileGuard, LetsNoReaderTakeATakenNameForAFaultOfItsDocument) {
+  const Folder folder;
+  const FileGuard guard;
+  OutputFile out(folder.write("f", "x"));
+  EXPECT_THROW(
+      try { InputFile in(folder / "f"); } catch (const Error&){}, NameTaken);
 }
 
 TEST(FileGuard, KeepsTwoFilesFromHavingOneName) {

@@ -164,34 +164,58 @@ TEST(ExportCommand, WritesAMapWithTexturesBesideItForOpenPbrAndUsd) {
   };
   const auto pbr = gonio(f, "export maps.exr --to open_pbr -o surface.mtlx --json").json();
   EXPECT_EQ(pbr["textures"],
-            nlohmann::json({"surface_open_pbr_color.png", "surface_open_pbr_roughness_metal.png",
-                            "surface_open_pbr_highlight.png", "surface_open_pbr_normal.png"}));
+            nlohmann::json({"surface.mtlx_color.png", "surface.mtlx_roughness_metal.png",
+                            "surface.mtlx_highlight.png", "surface.mtlx_normal.png"}));
   EXPECT_LT(pbr["median_residual"], 0.1) << "OpenPBR's Fresnel is exact, and its base compensated";
-  EXPECT_NEAR(pixels("surface_open_pbr_color.png")[0][0], srgb_byte(0.5), 1);
-  EXPECT_NEAR(pixels("surface_open_pbr_color.png")[5][0], srgb_byte(0.9), 1) << "a metal's";
-  EXPECT_NEAR(pixels("surface_open_pbr_roughness_metal.png")[0][1], 127.5, 1);
-  EXPECT_EQ(pixels("surface_open_pbr_roughness_metal.png")[5][2], 255);
-  EXPECT_EQ(pixels("surface_open_pbr_highlight.png")[0][0], 255);
+  EXPECT_NEAR(pixels("surface.mtlx_color.png")[0][0], srgb_byte(0.5), 1);
+  EXPECT_NEAR(pixels("surface.mtlx_color.png")[5][0], srgb_byte(0.9), 1) << "a metal's";
+  EXPECT_NEAR(pixels("surface.mtlx_roughness_metal.png")[0][1], 127.5, 1);
+  EXPECT_EQ(pixels("surface.mtlx_roughness_metal.png")[5][2], 255);
+  EXPECT_EQ(pixels("surface.mtlx_highlight.png")[0][0], 255);
   EXPECT_EQ(outside_faults(f, "surface.mtlx").value_or(""), "");
 
   const auto usd = gonio(f, "export maps.exr --to usd_preview -o u.usda --json").json();
   EXPECT_LT(usd["median_residual"], 0.1);
-  EXPECT_NEAR(pixels("u_usd_preview_color.png")[0][0], srgb_byte(0.5), 1);
-  EXPECT_EQ(pixels("u_usd_preview_color.png")[5][0], 0) << "all of a metal's is in its highlight";
-  EXPECT_NEAR(pixels("u_usd_preview_highlight.png")[0][0], srgb_byte(0.04), 1);
-  EXPECT_NEAR(pixels("u_usd_preview_highlight.png")[5][0], srgb_byte(0.9), 1);
+  EXPECT_NEAR(pixels("u.usda_color.png")[0][0], srgb_byte(0.5), 1);
+  EXPECT_EQ(pixels("u.usda_color.png")[5][0], 0) << "all of a metal's is in its highlight";
+  EXPECT_NEAR(pixels("u.usda_highlight.png")[0][0], srgb_byte(0.04), 1);
+  EXPECT_NEAR(pixels("u.usda_highlight.png")[5][0], srgb_byte(0.9), 1);
   EXPECT_EQ(outside_faults(f, "u.usda").value_or(""), "");
 
   const auto o = gonio(f, "export maps.exr --to usd_preview -o u.usda");
-  EXPECT_NE(o.out.find("files     u_usd_preview_color.png"), o.out.npos) << o.out;
+  EXPECT_NE(o.out.find("files     u.usda_color.png"), o.out.npos) << o.out;
   expect_one_line(gonio(f, "export maps.exr --to usd_preview -o 'a@b.usda'"), 2, "without quotes");
   EXPECT_FALSE(std::filesystem::exists(f / "a@b.usda"));
   // A texture is no less an output than the file: no input is replaced by one.
-  std::filesystem::copy(f / "maps.exr", f / "v_usd_preview_color.png");
-  const std::string bytes = read_bytes(f / "v_usd_preview_color.png");
-  expect_one_line(gonio(f, "export v_usd_preview_color.png --to usd_preview -o v.usda"), 2,
-                  "v_usd_preview_color.png");
-  EXPECT_EQ(read_bytes(f / "v_usd_preview_color.png"), bytes);
+  std::filesystem::copy(f / "maps.exr", f / "v.usda_color.png");
+  const std::string bytes = read_bytes(f / "v.usda_color.png");
+  expect_one_line(gonio(f, "export v.usda_color.png --to usd_preview -o v.usda"), 2,
+                  "v.usda_color.png");
+  EXPECT_EQ(read_bytes(f / "v.usda_color.png"), bytes);
+}
+
+TEST(ExportCommand, GivesFilesOfOneStemTexturesOfTheirOwn) {
+  const Folder f;
+  Image map{1, 1, {"alpha", "f0", "kd"}, {{0.1F}, {0.04F}, {0.2F}}, {}};
+  map.attributes = {{"gonio:schema", "gonio.map/1"},
+                    {"gonio:model", "lambert+ggx/smith_ggx.correlated/schlick"},
+                    {"gonio:stack", "none"},
+                    {"gonio:channels", "Y"}};
+  write_exr(f / "dark.exr", map);
+  map.planes[2][0] = 0.7F;
+  write_exr(f / "bright.exr", map);
+  const auto textures = [&](const std::string& words) {
+    return gonio(f, "export " + words + " --json")
+        .json()["textures"]
+        .get<std::vector<std::string>>();
+  };
+  const auto first = textures("dark.exr --to open_pbr -o a.mtlx");
+  std::vector<std::string> bytes;
+  for (const auto& name : first) bytes.push_back(read_bytes(f / name));
+  textures("bright.exr --to open_pbr -o a.xml");
+  textures("bright.exr --to usd_preview -o a.usda");
+  for (std::size_t k = 0; k < first.size(); ++k)
+    EXPECT_EQ(read_bytes(f / first[k]), bytes[k]) << first[k];
 }
 
 TEST(ExportCommand, WritesAMapForMitsubaInTexturesOfFloats) {
@@ -213,17 +237,17 @@ TEST(ExportCommand, WritesAMapForMitsubaInTexturesOfFloats) {
     return o.json();
   };
   const auto said = exported();
-  EXPECT_EQ(said["textures"], nlohmann::json({"m_mitsuba_reflectance.exr", "m_mitsuba_alpha.exr",
-                                              "m_mitsuba_eta.exr", "m_mitsuba_k.exr"}));
+  EXPECT_EQ(said["textures"], nlohmann::json({"m.xml_reflectance.exr", "m.xml_alpha.exr",
+                                              "m.xml_eta.exr", "m.xml_k.exr"}));
   EXPECT_LT(said["median_residual"], 0.1) << "Mitsuba's Fresnel is exact";
   EXPECT_EQ(said["metals"], 1);
-  EXPECT_EQ(read_exr(f / "m_mitsuba_alpha.exr").planes[0][0], 0.25F) << "alpha, not its root";
-  const auto eta = read_exr(f / "m_mitsuba_eta.exr");
+  EXPECT_EQ(read_exr(f / "m.xml_alpha.exr").planes[0][0], 0.25F) << "alpha, not its root";
+  const auto eta = read_exr(f / "m.xml_eta.exr");
   ASSERT_EQ(eta.channels.size(), 1U) << "F0 is grey";
   EXPECT_NEAR(eta.planes[0][0], 1.5F, 1e-5F);
-  EXPECT_NEAR(read_exr(f / "m_mitsuba_k.exr").planes[0][0], 0.0F, 1e-6F);
-  EXPECT_GT(read_exr(f / "m_mitsuba_k.exr").planes[0][5], 0.5F) << "a metal's";
-  const auto kd = read_exr(f / "m_mitsuba_reflectance.exr", 100, {"R", "G", "B"});
+  EXPECT_NEAR(read_exr(f / "m.xml_k.exr").planes[0][0], 0.0F, 1e-6F);
+  EXPECT_GT(read_exr(f / "m.xml_k.exr").planes[0][5], 0.5F) << "a metal's";
+  const auto kd = read_exr(f / "m.xml_reflectance.exr", 100, {"R", "G", "B"});
   EXPECT_NEAR(kd.planes[0][1] / kd.planes[0][0], 0.4F / 0.6F, 1e-6F);
   for (const auto& line : said["lost"])
     EXPECT_EQ(line.get<std::string>().find("Spectral"), std::string::npos) << line;

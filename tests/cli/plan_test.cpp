@@ -66,6 +66,13 @@ TEST(PlanCommand, ShowsThePlanAsAPage) {
             json::parse(read_bytes(f / "plan.json")));
 }
 
+TEST(PlanCommand, WritesNoMaterialsWhoseNameTwoPlansWouldShare) {
+  const Folder f;
+  f.write("scene.json", scene().dump());
+  expect_one_line(gonio(f, "plan scene.json --write mtlx -o plan.txt"), 2, "ends in .json");
+  EXPECT_EQ(f.entries(), 1U);
+}
+
 TEST(PlanCommand, WritesTheMaterialsForMaterialxBesideThePlan) {
   const Folder f;
   auto s = scene();

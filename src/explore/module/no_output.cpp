@@ -13,18 +13,18 @@ namespace gonio {
 
 void will_read(const std::string&) {}
 void may_replace(const std::string&) {}
-void expect_no_input(const std::string&) {}
+void expect_no_input(const std::string&, NamedBy) {}
 bool remove_unless_input(const std::string&) {
   return false;
 }
-OutputFile::OutputFile(std::string path) {
+OutputFile::OutputFile(std::string path, NamedBy by) : by_(by) {
   throw wrong_usage(path + ": a page writes no files");
 }
 OutputFile::~OutputFile() = default;
 void OutputFile::write(std::string_view) {}
 void OutputFile::close() {}
 void OutputFile::commit() {}
-void write_file(const std::string& path, std::string_view) {
+void write_file(const std::string& path, std::string_view, NamedBy) {
   OutputFile out(path);
 }
 std::string path_beside(const std::string& document, const std::string&) {

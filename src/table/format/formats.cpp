@@ -177,7 +177,7 @@ void expect_own_side(const std::string& path) {
   const std::string side = side_path(path);
   std::error_code why;
   if (!std::filesystem::exists(std::filesystem::symlink_status(side, why))) return;
-  expect_no_input(side);
+  expect_no_input(side, NamedBy::gonio);
   may_replace(side);
   try {
     if (JsonDocument(side, side_text(path)).root().has("sha256"))
@@ -253,7 +253,7 @@ void write_table(const Table& t, const std::string& path) {
   // failure, a table may lack what was said about it, but has nothing false beside it for long.
   const std::string side = side_path(path);
   if (needs_metadata(t))
-    write_file(side, metadata_text(t, sha256_of_file(out.temporary_path())));
+    write_file(side, metadata_text(t, sha256_of_file(out.temporary_path())), NamedBy::gonio);
   else
     remove_unless_input(side);
   try {

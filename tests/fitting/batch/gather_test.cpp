@@ -166,6 +166,18 @@ TEST(Gather, TellsADocumentThatCannotBeReadAndLeavesOthersFilesAlone) {
   EXPECT_EQ(test::read_bytes(t.out + "/notes.json"), R"({"by": "hand"})");
 }
 
+TEST(Gather, ReadsNoDocumentThroughALinkOutOfItsFolder) {
+  const Tables t;
+  t.fit({t.paths[0], t.paths[1]});
+  t.f.write("secret.txt", "my password");
+  fs::create_symlink("../secret.txt", t.out + "/linked.json");
+  fs::create_symlink("a.json", t.out + "/again.json");
+  const auto s = gather(t.out, read_list(t.out), {});
+  ASSERT_EQ(left_out(s, LeftOut::unreadable), Names{"linked.json"});
+  for (const auto& d : s.left_out) EXPECT_EQ(d.message.find("password"), d.message.npos);
+  EXPECT_EQ(left_out(s, LeftOut::another_of_its_table), Names{"again.json"});
+}
+
 TEST(Gather, ReplacesNoSummaryOfSomebodyElse) {
   const Tables t;
   t.fit({t.paths[0]});

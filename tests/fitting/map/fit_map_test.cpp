@@ -67,6 +67,42 @@ TEST(FitMap, IsTheSameToTheBitWhateverTheTilesAndTheThreads) {
     }
 }
 
+TEST(FitMap, IsTheSameToTheBitWhateverTheMemoryOfItsResults) {
+  const Folder f;
+  const StackReader reader(read_stack(known_stack(f, "s", {}, 12)));
+  const TileGrid grid{map_width, map_height, 8, 16};
+  const auto tiles = [&](const std::string& name, std::size_t most_results) {
+    fit_tiles(reader, held(), grid, grid.all(), f / name, {}, {}, most_results);
+    std::vector<std::string> all;
+    for (const Tile& t : grid.all()) all.push_back(read_bytes(f / (name + "/" + file_name(t))));
+    return all;
+  };
+  const auto whole = tiles("whole", std::size_t{1} << 28);
+  for (const std::size_t bytes : {1, 4000, 20'000})
+    EXPECT_EQ(tiles(std::to_string(bytes), bytes), whole) << bytes;
+}
+
+TEST(FitMap, RemovesNothingFromItsFolderThatGonioDidNotMake) {
+  const Folder f;
+  const StackReader reader(read_stack(known_stack(f, "s", {}, 12)));
+  const TileGrid grid{map_width, map_height, 8, 8};
+  const std::string folder = f / "t", other = folder + "/tile_0_0.exr",
+                    mine = folder + "/tile_2_2.exr";
+  fit_tiles(reader, {}, grid, grid.all(), folder);
+  const auto line = [&] {
+    return refusal([&] { remove_other_tiles(reader, held(), grid, folder); });
+  };
+  for (const std::string& bytes : {read_bytes(f / "s/image_000.exr"), std::string("no image")}) {
+    f.write("t/tile_2_2.exr", bytes);
+    EXPECT_HAS(line(), "tile_2_2.exr: header: found no tile of a map");
+    EXPECT_EQ(read_bytes(mine), bytes);
+    EXPECT_TRUE(std::filesystem::exists(other)) << "before anything goes";
+  }
+  std::filesystem::remove(mine);
+  EXPECT_EQ(line(), "");
+  EXPECT_FALSE(std::filesystem::exists(other)) << "of other options";
+}
+
 TEST(FitMap, OfATileThatWasLostIsTheSameAndFitsThatTileAlone) {
   const Folder f;
   const std::string stack = known_stack(f, "s", {}, 12);

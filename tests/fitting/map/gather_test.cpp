@@ -2,10 +2,14 @@
 #include "fitting/map/gather.h"
 
 #include <cmath>
+#include <fstream>
 
 #include "base/error.h"
 #include "fitting/map/stacks.h"
 #include "refusal.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
 
 namespace gonio {
 namespace {
@@ -128,6 +132,41 @@ TEST(Gather, RefusesFirstTilesThatLie) {
   other.attributes["gonio:size"] = "8,8";
   write_exr(tile, other);
   EXPECT_HAS(refusal([&] { gather(f, folder); }), "tile_0_0.exr: channels");
+}
+
+TEST(Gather, NeedsNoMoreMemoryForTilesOfManyChannels) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+  GTEST_SKIP() << "sanitizers take the address space for themselves";
+#endif
+  const Folder f;
+  std::filesystem::create_directory(f / "t");
+  const TileGrid grid{8192, 64, 8192, 64};
+  std::vector<ExrChannel> channels{{"misfit"}, {"outcome"}, {"rms"}};
+  for (int k = 0; k < 128; ++k) channels.push_back({"x" + std::to_string(k)});
+  MapAttributes map;
+  for (const char* name : {"gonio:version", "gonio:model", "gonio:options", "gonio:stack",
+                           "gonio:shaders", "gonio:channels"})
+    map[name] = "a stranger's";
+  {
+    OutputFile out(f / "t/tile_0_0.exr");
+    ExrWriter writer(out, grid.width, grid.height, channels, attributes_of(map, grid, {}),
+                     ExrWriter::Packing::runs);
+    const std::vector<float> row(grid.width);
+    const std::vector<const float*> planes(channels.size(), row.data());
+    for (std::size_t y = 0; y < grid.height; ++y) writer.write(1, planes);
+    writer.finish();
+    out.commit();
+  }
+  rlimit before{};
+  ASSERT_EQ(::getrlimit(RLIMIT_AS, &before), 0);
+  std::size_t pages = 0;
+  std::ifstream("/proc/self/statm") >> pages;
+  const rlim_t room = rlim_t{450} << 20;  // of 550 MB for all rows at once
+  const rlimit limit{pages * static_cast<std::size_t>(::sysconf(_SC_PAGESIZE)) + room,
+                     before.rlim_max};
+  ASSERT_EQ(::setrlimit(RLIMIT_AS, &limit), 0);
+  EXPECT_NO_THROW(gather(f, f / "t"));
+  ::setrlimit(RLIMIT_AS, &before);
 }
 
 }  // namespace
