@@ -117,6 +117,7 @@ Exit run(const StackCall& o) {
           "file over 65535, {:.4g}",
           option, *number, *number / 65535));
   if (!s.saturation && in_unit_range) s.saturation = 1;  // the largest number that they have
+  if (s.dark || s.flat) StackReader::expect_frames(s);
   const std::string text = to_json(s);
   write_file(o.output, text);
   if (o.json) {

@@ -102,7 +102,7 @@ std::size_t StackReader::vectors(const std::string& name) {
 namespace {
 
 /// Bytes that files may hold which stay open, and once more those that are opened anew for a part.
-constexpr std::size_t most_held = std::size_t{1} << 29;
+constexpr std::size_t most_held = std::size_t{1} << 28;
 
 }  // namespace
 
@@ -133,7 +133,7 @@ StackReader::Source StackReader::source_of(const std::string& name) {
   return source;
 }
 
-StackReader::StackReader(Stack stack)
+StackReader::StackReader(Stack stack, WithoutName)
     : stack_(std::move(stack)), opening_(std::make_unique<MemoryBudget>(most_held)) {
   first_ = stack_.path_of(stack_.images[0].path);
   for (const StackImage& image : stack_.images) {
@@ -151,8 +151,9 @@ StackReader::StackReader(Stack stack)
     shared_ = shared_ && light_maps_.back() == none && view_maps_.back() == none;
   }
   if (stack_.dark) dark_ = source_of(*stack_.dark);
-  if (stack_.flat) {
-    flat_ = source_of(*stack_.flat);
+  if (stack_.flat) flat_ = source_of(*stack_.flat);
+  expect_photographs();
+  if (flat_) {
     const auto tenth = [](std::size_t n) { return std::max<std::size_t>(1, n / 10); };
     const Rectangle part{(width_ - tenth(width_)) / 2, (height_ - tenth(height_)) / 2,
                          tenth(width_), tenth(height_)};
@@ -180,10 +181,17 @@ StackReader::StackReader(Stack stack)
   }
   if (stack_.normals) normals_ = vectors(*stack_.normals);
   if (stack_.truth) will_read(stack_.path_of(stack_.truth->parameters));  // it is no output either
-  make_digest();
 }
 
-void StackReader::make_digest() {
+StackReader::StackReader(Stack stack) : StackReader(std::move(stack), WithoutName()) {
+  digest_ = make_digest();
+}
+
+void StackReader::expect_frames(Stack stack) {
+  StackReader(std::move(stack), WithoutName());
+}
+
+std::string StackReader::make_digest() const {
   std::vector<const Source*> all;
   for (const auto* sources : {&images_, &maps_})
     for (const Source& s : *sources)
@@ -200,7 +208,7 @@ void StackReader::make_digest() {
   });
   std::string list = sha256_of_file(stack_.path) + '\n';
   for (const auto& digest : digests) list += digest + '\n';
-  digest_ = sha256(list);
+  return sha256(list);
 }
 
 void StackReader::expect_unchanged(const Source& source, const InputFile& now) {
@@ -216,6 +224,36 @@ std::size_t StackReader::bytes_of_texel() const {
   return sizeof(float) * ((images_.size() + frames) * channels_.size() + vectors);
 }
 
+void StackReader::expect_photographs() const {
+  if (!dark_ && !flat_) return;
+  constexpr std::size_t at_once = std::size_t{1} << 20;
+  const std::size_t rows = whole_blocks(at_once / width_, block_height_),
+                    channels = channels_.size();
+  std::vector<std::size_t> no_number(channels), no_light(channels);
+  std::vector<float> dark, gain;
+  for (std::size_t y = 0; y < height_; y += rows) {
+    const Rectangle part{0, y, width_, std::min(rows, height_ - y)};
+    read_frames(part, dark, gain);
+    for (std::size_t k = 0; k < dark.size(); ++k) {
+      no_number[k / part.size()] += !std::isfinite(dark[k]);
+      no_light[k / part.size()] += std::isnan(gain[k]);
+    }
+  }
+  const auto expect = [&](const Source& frame, const std::vector<std::size_t>& without,
+                          const char* lacks, const char* expected) {
+    const std::size_t texels = width_ * height_;
+    for (std::size_t c = 0; c < channels; ++c)
+      if (2 * without[c] > texels)
+        throw bad_input(frame.path, channels == 1 ? "its numbers" : channels_[c],
+                        fmt::format("{} in {} of {} pixels", lacks, without[c], texels), expected);
+  };
+  if (dark_)
+    expect(*dark_, no_number, "none", "numbers of a photograph without light in most of them");
+  if (flat_)
+    expect(*flat_, no_light, dark_ ? "none above the dark frame" : "none above 0",
+           "numbers of a white sheet under light in most of them");
+}
+
 void StackReader::read_frames(const Rectangle& part,
                               std::vector<float>& dark,
                               std::vector<float>& gain) const {
@@ -228,7 +266,9 @@ void StackReader::read_frames(const Rectangle& part,
   read(*flat_, part, gain);
   for (std::size_t k = 0; k < n; ++k) {
     const float light = gain[k] - dark[k];
-    gain[k] = light > 0 ? (middle_.empty() ? 1 : middle_[k / part.size()]) / light : nan;
+    gain[k] = light > 0 && std::isfinite(light)
+                  ? (middle_.empty() ? 1 : middle_[k / part.size()]) / light
+                  : nan;
   }
 }
 

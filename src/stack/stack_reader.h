@@ -47,8 +47,11 @@ void expect_size_of(const std::string& first,
 /// Open stack.  One thread reads parts, which are read on all.
 class StackReader {
  public:
-  /// Opens each image once: those of another size or without the channels are refused.
+  /// Opens each image once: those of another size or without the channels are refused.  Frames are read whole: one that is no
+  /// photograph is refused.
   explicit StackReader(Stack stack);
+  /// Refuses what opening it would, without reading the images whole.
+  static void expect_frames(Stack stack);
 
   const Stack& stack() const { return stack_; }
   std::size_t width() const { return width_; }
@@ -72,6 +75,8 @@ class StackReader {
   const std::string& digest() const { return digest_; }
 
  private:
+  struct WithoutName {};  ///< digest() is left empty
+  StackReader(Stack stack, WithoutName);
   static constexpr std::size_t none = static_cast<std::size_t>(-1);
   struct Source {
     std::string path;
@@ -86,7 +91,9 @@ class StackReader {
   Source source_of(const std::string& name);
   /// Numbers that a photograph is multiplied with after the dark frame is taken off, [channel][texel].
   void read_frames(const Rectangle&, std::vector<float>& dark, std::vector<float>& gain) const;
-  void make_digest();
+  /// Refuses a dark frame without numbers and a flat one without light, in most of its pixels.
+  void expect_photographs() const;
+  std::string make_digest() const;
   static void expect_unchanged(const Source&, const InputFile& now);
   std::unique_ptr<ImageFile> open(const std::string& path);
   /// Keeps a file open where those that are leave it room.

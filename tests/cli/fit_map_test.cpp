@@ -3,6 +3,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <limits>
 
 #include "base/text.h"
 #include "cli/program.h"
@@ -87,6 +88,24 @@ TEST(StackCommand, TakesVectorsAsPlacesOfLampsWhereTheyAreNear) {
   const double first = j["images"][0]["scale"], second = j["images"][1]["scale"];
   EXPECT_NEAR(first, 1 / (3.14159265 * 0.5), 1e-6);
   EXPECT_NEAR(second, first * 4, 1e-6) << "twice as far, a quarter of the light";
+}
+
+TEST(StackCommand, RefusesFramesThatAreNoPhotographs) {
+  const Folder f;
+  ASSERT_EQ(
+      gonio(f, std::string("synth ") + paint + " --layout map --size 4,3 --images 2 -o s").code, 0);
+  f.write("s/dome.lp", "2\nimage_000.exr 0 0 1\nimage_001.exr 0 0.6 0.8\n");
+  Image frame{4, 3, {"R", "G", "B"}, std::vector(3, std::vector<float>(12)), {}};
+  write_exr(f / "s/zeros.exr", frame);
+  for (auto& plane : frame.planes) plane.assign(12, std::numeric_limits<float>::quiet_NaN());
+  write_exr(f / "s/nan.exr", frame);
+  expect_one_line_each(f, 3,
+                       {{"stack s/dome.lp --flat s/zeros.exr -o s/x.json",
+                         "s/zeros.exr: R: found none above 0 in 12 of 12 pixels, expected"},
+                        {"stack s/dome.lp --flat s/nan.exr -o s/x.json", "s/nan.exr: R: found"},
+                        {"stack s/dome.lp --dark s/nan.exr -o s/x.json", "s/nan.exr: R: found"}});
+  EXPECT_FALSE(fs::exists(f / "s/x.json"));
+  EXPECT_EQ(gonio(f, "stack s/dome.lp --dark s/zeros.exr -o s/x.json").code, 0);
 }
 
 TEST(StackCommand, FindsTheLampsInAMirrorBall) {
@@ -366,6 +385,16 @@ TEST(FitMapCommand, TakesNoTileAwayThatIsAnInput) {
   expect_one_line(gonio(f, "fit_map s/stack.json -o s/m.exr " + model), 2, "is an input");
   for (int k = 0; k < 2; ++k)
     EXPECT_TRUE(fs::exists(f / fmt::format("s/m.exr.tiles/tile_{}_0.exr", k))) << k;
+}
+
+TEST(FitMapCommand, TakesNoImageAwayThatGonioDidNotMake) {
+  const Folder f;
+  make_stack(f);
+  fs::create_directory(f / "m.exr.tiles");
+  fs::copy_file(f / "s/image_000.exr", f / "m.exr.tiles/tile_7_7.exr");
+  expect_one_line(gonio(f, "fit_map s/stack.json -o m.exr " + model), 3,
+                  "m.exr.tiles/tile_7_7.exr: header: found no tile of a map");
+  EXPECT_TRUE(fs::exists(f / "m.exr.tiles/tile_7_7.exr"));
 }
 
 TEST(FitMapCommand, RefusesTilesOfOtherOptionsAndKeepsThem) {

@@ -229,14 +229,43 @@ TEST(StackReader, LooksAtItsFramesAsAtItsImages) {
   {
     const FileGuard guard;
     const StackReader reader(read_stack(path));
-    EXPECT_THROW(OutputFile(f / "white.exr"), Error) << "an input";
+    EXPECT_THROW(OutputFile(f / "white.exr"), NameTaken) << "an input";
   }
   write_exr(f / "white.exr", stack_image(0, 6));
   EXPECT_HAS(line(), "white.exr: size: found 6 × 4");
-  write_exr(f / "white.exr", ramp(-9, 0.25F));
+  Image white = ramp(2, 0.25F);
+  for (auto& plane : white.planes)
+    for (const std::size_t t : {6, 7, 8, 11, 12, 13}) plane[t] = 0;
+  write_exr(f / "white.exr", white);
   EXPECT_HAS(line(), "white.exr: its middle: found none above the dark frame");
   std::filesystem::remove(f / "white.exr");
   EXPECT_HAS(line(), "white.exr: opening");
+}
+
+TEST(StackReader, RefusesAFrameThatIsNoPhotograph) {
+  const Folder f;
+  constexpr float no_number = std::numeric_limits<float>::quiet_NaN(),
+                  infinite = std::numeric_limits<float>::infinity();
+  const auto line = [&](const char* frame, float first, std::size_t texels) {
+    Image image = ramp(2, 0.25F);
+    for (auto& plane : image.planes) std::fill_n(plane.begin(), texels, first);
+    write_exr(f / "frame.exr", image);
+    const std::string path = example_stack(f, std::string(R"(, ")") + frame + R"(": "frame.exr")");
+    return refusal([&] { StackReader::expect_frames(read_stack(path)); });
+  };
+  for (const float wrong : {0.0F, -1.0F, no_number, infinite}) {
+    EXPECT_HAS(line("flat", wrong, 20),
+               "frame.exr: R: found none above 0 in 20 of 20 pixels, expected numbers of a white "
+               "sheet");
+    EXPECT_HAS(line("flat", wrong, 11), "in 11 of 20 pixels");
+    EXPECT_EQ(line("flat", wrong, 4), "") << "some are dead";
+  }
+  for (const float wrong : {no_number, infinite}) {
+    EXPECT_HAS(line("dark", wrong, 20),
+               "frame.exr: R: found none in 20 of 20 pixels, expected numbers of a photograph");
+    EXPECT_EQ(line("dark", wrong, 4), "");
+  }
+  EXPECT_EQ(line("dark", 0, 20), "") << "nothing is dark";
 }
 
 TEST(StackReader, RefusesADirectionBelowTheSurfaceByItsTexel) {
