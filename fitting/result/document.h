@@ -103,8 +103,7 @@ struct Misfit {
   double p = std::numeric_limits<double>::quiet_NaN();     ///< probability by luck alone
   double size = std::numeric_limits<double>::quiet_NaN();  ///< beyond noise, as the log RMS counts
   bool told = false;                 ///< whether it is significant and large enough to matter
-  /// "theta_h", "theta_d", "grazing angles", "the surface's azimuth": the most of it
-  std::vector<std::string> follows;
+  std::vector<std::string> follows;  ///< "theta_h", "theta_d", "grazing angles": the most of it
   std::optional<MisfitCell> worst_cell;
   std::string note;          ///< why it was not tested
   bool too_few = false;      ///< whether values or angles are too few to tell

@@ -9,6 +9,7 @@
 #include "fitting/fit.h"
 #include "fitting/support.h"
 #include "geometry/angles.h"
+#include "geometry/half_difference.h"
 
 #include <gtest/gtest.h>
 
@@ -73,10 +74,14 @@ TEST(Azimuths, AccuseNoRightModel) {
           .misfit.told);
 }
 
-TEST(Azimuths, TellAWaveThoughAGainOfEachPlaceOfTheLightTakesItUp) {
-  Table t = turned(test::bind(isotropic, "alpha=0.3,f0=0.05", 1), 0.01);
+TEST(Azimuths, TellAWaveAroundTheHalfVector) {
+  Table t = synthesize(test::bind(isotropic, "alpha=0.3,f0=0.05", 1),
+                       {.layout = Layout::random, .noise = 0.01});
+  t.truth.reset();  // as if measured
+  EXPECT_FALSE(fitted(t, isotropic).misfit.told);
+  const SampleAngles at(t);
   for (std::size_t i = 0; i < t.size(); ++i)
-    t.values[0][i] *= 1 + 0.06 * std::cos(2 * t.list()->phi_i_deg[i] * degree);
+    t.values[0][i] *= 1 + 0.1 * std::cos(4 * half_difference(at.directions(i)).phi_h);
   EXPECT_TRUE(fitted(t, isotropic).misfit.told);
 }
 
