@@ -328,7 +328,8 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       for (const double& power : powers) {
         const auto n = compared(term, form, pairing, power);
         if (!std::isfinite(n.difference)) continue;
-        // A form as it is shipped goes before the one that it stands for with what ships missing.
+        // A form as it is shipped goes before the one that it stands for with what ships missing,
+        // where its clamp says that it is that one.
         if (!entry.about->reference().empty() && is_plain(n) &&
             (!shipped || n.difference < shipped->difference))
           shipped = n;
@@ -350,7 +351,7 @@ std::optional<NearestForm> nearest_form(std::size_t term) {
       }
     }
   }
-  if (shipped && best && is_same(*best) && !is_plain(*best) &&
+  if (shipped && best && is_same(*best) && best->cap &&
       catalogue()[best->term].id() == catalogue()[shipped->term].about->reference()) {
     shipped->as_shipped = likely_slips(term, *best);
     shipped->difference = std::min(shipped->difference, best->difference);
