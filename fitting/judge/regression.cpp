@@ -514,24 +514,17 @@ Regression regress(const Left& found,
 
 namespace {
 
-/// What remains of the residuals beside gains, once a robust fit's values are clipped beside these.
-class BesideGains {
- public:
-  BesideGains(const Left& found, const std::vector<SharedAngle>& gains) : settled_(found) {
-    if (found.robust) settle(settled_, gains);
-    projected_.emplace(settled_, gains);
-  }
-  const Projected& projected() const { return *projected_; }
-
- private:
-  Left settled_;
-  std::optional<Projected> projected_;  // refers to what stands before it
-};
+/// Residuals where a robust fit's values are clipped beside gains.
+Left settled_beside(Left left, const std::vector<SharedAngle>& gains) {
+  if (left.robust) settle(left, gains);
+  return left;
+}
 
 }  // namespace
 
 bool are_smooth(const Left& left, const std::vector<SharedAngle>& gains) {
-  const auto factors = BesideGains(left, gains).projected().factors().back();
+  const Left settled = settled_beside(left, gains);
+  const auto factors = Projected(settled, gains).factors().back();
   const auto& places = left.places[static_cast<std::size_t>(gains.back())];
   const std::size_t channels = left.unknowns.size();
   std::vector<std::size_t> order(places.size());
@@ -557,9 +550,10 @@ bool are_smooth(const Left& left, const std::vector<SharedAngle>& gains) {
 }
 
 double common_factor(const Left& left, const std::vector<SharedAngle>& gains) {
-  const BesideGains beside(left, gains);
-  const auto factors = beside.projected().factors().back();
-  const auto errors = beside.projected().errors_of_means();
+  const Left settled = settled_beside(left, gains);
+  const Projected projected(settled, gains);
+  const auto factors = projected.factors().back();
+  const auto errors = projected.errors_of_means();
   const std::size_t channels = left.unknowns.size(), angles = factors.size() / channels;
   constexpr double surely = 3;  // standard errors
   double largest = 0;
@@ -572,8 +566,8 @@ double common_factor(const Left& left, const std::vector<SharedAngle>& gains) {
 }
 
 StepBeside step_beside(const Left& left, const std::vector<SharedAngle>& gains) {
-  const BesideGains beside(left, gains);
-  const Projected& projected = beside.projected();
+  const Left settled = settled_beside(left, gains);
+  const Projected projected(settled, gains);
   StepBeside step{0, projected.products(), projected.descent()};
   for (std::size_t i = 0; i < left.values.size(); ++i)
     step.squares += std::pow(projected.beside_gains(i), 2);
