@@ -265,18 +265,6 @@ Left left_beside(
   for (const auto& scaled : tests.scaled) gains.push_back(scaled.of);
   constexpr int tries = 24;
   constexpr double settled = 1e-4, most_damped = 1e6, towards_bound = 0.9;
-  constexpr double inside = 0.1, near_bound = 0.01;  // of the range
-  // What stands at a bound is no unknown: it begins inside, and is put back where it goes there
-  // again.
-  std::vector<std::size_t> at_bound;  // slots
-  for (const std::size_t slot : p.free.slots()) {
-    const std::size_t i = p.free.index(slot);
-    const double low = p.bounds.low[i], high = p.bounds.high[i];
-    double& x = f.model.values[slot];
-    if (x > low && x < high) continue;
-    at_bound.push_back(slot);
-    x = x <= low ? std::lerp(low, high, inside) : std::lerp(high, low, inside);
-  }
   Left left = left_over(s, p, f, facts);
   double damping = 1e-3;
   auto step = step_beside(left, gains);
@@ -285,7 +273,7 @@ Left left_beside(
     const auto by = step.damped(damping);
     for (std::size_t u = 0; u < left.slots.size(); ++u) {
       const std::size_t slot = left.slots[u], i = p.free.index(slot);
-      double& x = there.model.values[slot];
+      double& x = there.model.values[slot];  // at a bound it would be no unknown
       x += std::clamp(by[u], towards_bound * (p.bounds.low[i] - x),
                       towards_bound * (p.bounds.high[i] - x));
     }
@@ -300,15 +288,6 @@ Left left_beside(
     f = std::move(there), left = std::move(at), step = std::move(next);
     if (is_settled) break;
   }
-  for (const std::size_t slot : at_bound) {
-    const std::size_t i = p.free.index(slot);
-    const double low = p.bounds.low[i], high = p.bounds.high[i];
-    double& x = f.model.values[slot];
-    x = x < std::lerp(low, high, near_bound)   ? low
-        : x > std::lerp(high, low, near_bound) ? high
-                                               : x;
-  }
-  left = left_over(s, p, f, facts);
   find_variances(left);
   return left;
 }
