@@ -26,7 +26,7 @@ Table with_gains(std::uint64_t seed, double spread) {
   for (std::size_t i = 0; i < t.size(); ++i) {
     double& g = gain[t.list()->theta_i_deg[i]];
     if (g == 0) g = std::exp(spread * normal(random));
-    t.values[0][i] *= g;
+    t.values[0][i] *= t.list()->theta_i_deg[i] > 50 ? std::nan("") : g;
   }
   return t;
 }
@@ -39,8 +39,8 @@ FitDocument of_model(const Table& t, const char* model) {
 }
 
 TEST(Scales, OfAMetalsIncidentAnglesAreNoMisfit) {
-  for (std::uint64_t seed = 1; seed <= 8; ++seed)
-    EXPECT_FALSE(of_model(with_gains(seed, 0.04), metal).misfit.told) << seed;
+  for (std::uint64_t seed = 21; seed <= 28; ++seed)
+    EXPECT_FALSE(of_model(with_gains(seed, 0.05), metal).misfit.told) << seed;
 }
 
 TEST(Scales, OfAMetalsIncidentAnglesHideNoOtherDistribution) {
