@@ -180,6 +180,8 @@ Laws laws_of(const foreign::Function& f, std::size_t term) {
   for (const auto& r : rows) other.push_back(auditing::exchanged(r));
   const auto horizon = role == Role::ndf || role == Role::fresnel ? std::vector<Row>{} : grazing();
   RowColumns at_rows(rows), at_other(other), at_horizon(horizon);
+  const bool is_of_surface =
+      std::ranges::any_of(parameters, [](const Parameter& q) { return is_f0(q) || is_eta(q); });
   constexpr double above_by_rounding = 1e-5;  // some fits' own
   constexpr double below_by_rounding = 1e-12;  // as (1 − VoH)⁵ is where VoH rounds to more than 1
   const auto count_finite = [&](const std::vector<double>& v, const Values& p,
@@ -203,7 +205,8 @@ Laws laws_of(const foreign::Function& f, std::size_t term) {
         };
         // A weight or an F90 above 1 is meant.
         const bool is_above = role == Role::fresnel && v[i] > 1 + above_by_rounding;
-        if (is_above && is_within_one(parameters, p)) take_largest(a.above_one, v[i], at());
+        if (is_above && is_of_surface && is_within_one(parameters, p))
+          take_largest(a.above_one, v[i], at());
         if (v[i] < -below_by_rounding) take_smallest(a.lowest, v[i], at());
         const double size = std::max(std::abs(v[i]), std::abs(w[i]));
         const double off = std::abs(v[i] - w[i]);

@@ -5,7 +5,6 @@
 #include "own/own_shaders.h"
 #include "refusal.h"
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 namespace gonio {
@@ -141,9 +140,10 @@ TEST(CompareTerms, ASquareByItsNameIsRootedAndAnUnknownNameIsSought) {
   SKIP_WITHOUT_SHADERS;
   const Folder folder;
   for (const auto& [name, map] :
-       {std::pair{"a2", "alpha = √a2"}, {"m2", "alpha = √m2"}, {"blur", "alpha = √blur"}}) {
-    const std::string before = std::string(name) == "a2" ? "" : fmt::format("float a2 = {};", name);
-    const auto path = folder.write(std::string(name) + ".glsl", ggx(before, whole, name));
+       {std::pair{"a2", "alpha = √a2"}, {"m2", "alpha = √m2"}, {"blur", "alpha = blur"}}) {
+    const std::string n(name);
+    const auto before = n == "a2" ? "" : "float a2 = " + n + (n == "blur" ? " * " + n : "") + ";";
+    const auto path = folder.write(n + ".glsl", ggx(before, whole, name));
     const auto c = compare_terms(path, "ndf.ggx", {});
     EXPECT_LT(c.largest, 1e-9) << name;
     EXPECT_EQ(c.pairs, map);
