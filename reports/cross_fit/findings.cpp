@@ -85,9 +85,6 @@ Shifts shifts(const Cases& cases, std::string_view parameter) {
   return out;
 }
 
-std::string number(double x) {
-  return x < 1e-7 ? "0" : fmt::format("{:.2g}", x);
-}
 std::string signed_number(double x) {
   return std::abs(x) < 5e-5 ? "0" : fmt::format("{}{:.2g}", x < 0 ? "−" : "+", std::abs(x));
 }

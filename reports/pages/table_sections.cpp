@@ -16,7 +16,7 @@ namespace {
 
 using page::Group;
 
-constexpr double two_sigma = 1.96;    ///< half a 95 % interval, in standard uncertainties
+constexpr double two_sigma = 1.96;  ///< half a 95 % interval, in standard uncertainties
 
 std::string noise_share(const Noise& n) {
   return percent(std::max(*n.sigma, n.bound ? 1e-4 : 0));

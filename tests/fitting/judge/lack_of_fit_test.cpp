@@ -386,10 +386,11 @@ void round_to_digits(Table& t, int digits) {
 TEST(LackOfFit, WhatDigitsLeaveOutOfAllValuesAlikeIsInTheInterval) {
   Table t = synthesize(test::bind("lambert", "kd=0.5", 1), {.layout = Layout::in_plane});
   round_to_digits(t, 2);  // 0.159 is 0.16, everywhere
-  const auto& kd = test::parameter(fit_of(t, "lambert"), "kd");
-  EXPECT_LT(kd.ci95_low[0], 0.5);
-  EXPECT_GT(kd.ci95_high[0], 0.5);
-  EXPECT_LT(kd.ci95_high[0] - kd.ci95_low[0], 0.1);
+  const auto d = fit_of(t, "lambert");
+  const auto& found = test::parameter(d, "kd");
+  EXPECT_LT(found.ci95_low[0], 0.5);
+  EXPECT_GT(found.ci95_high[0], 0.5);
+  EXPECT_LT(found.ci95_high[0] - found.ci95_low[0], 0.1);
 }
 
 TEST(LackOfFit, OfValuesOfFewDigitsIsToldWhereItExceedsThemByFar) {
