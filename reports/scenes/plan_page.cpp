@@ -241,7 +241,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
     t.add(capital(words_of(e.effect)),
           e.keep   ? Cell{"keep" + form_words(e.form), {}, {}, "verdict-yes"}
           : absent ? Cell{"absent", {}, {}, "muted"}
-                   : Cell{"drop" + instead(m, e)},
+                   : Cell{instead(m, e).empty() ? "drop" : "simplify" + instead(m, e)},
           absent   ? "–"
           : proved ? at_most(e.error_if_dropped)
                    : significant(e.error_if_dropped, 2),
