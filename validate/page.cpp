@@ -158,7 +158,7 @@ std::string validation_page_html(const Validation& v) {
                                   {"reference", code(v.reference)},
                                   {"file", code(v.path)}}}}});
   out.setting =
-      "Albedos and colours are of the formula in double. What the shader's number rounds away is "
+      "Albedos and colours are of the formula in double. Rounding in the shader's number is "
       "judged only by the budget of inputs without a value, and by `gonio stability`.";
   return page_html(out, v.pictures);
 }

@@ -162,7 +162,7 @@ function advice(said) {
   return p;
 }
 function fit_panel({ about, changed, fit }) {
-  const head = `${about.name} misses ${fit.file} typically by ${times(fit.log_rms)}${fit.left_out ? ` (left out: ${fit.left_out})` : ""}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
+  const head = `${about.name} misses ${fit.file}${fit.left_out ? `, without ${fit.left_out},` : ""} by a typical factor of ${times(fit.log_rms)}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
   return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...(fit.meets ? [make("p", {}, "What is left is no more than the table's own noise.")] : []), ...fit.next.map(advice), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
 }
 function comparison_panel(d) {

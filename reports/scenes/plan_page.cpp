@@ -166,7 +166,7 @@ std::vector<std::string> verdict(const scene::Plan& p, const std::string& unit) 
           m.speedup < 1 ? fmt::format("takes {} the time", times(1 / m.speedup))
                         : "is " + speed(m.speedup)));
       out.push_back(fmt::format(
-          "What ships and comes nearest for {} is {}: off by {}{} with all else exact, without the "
+          "For {} {} comes nearest of those that ship: off by {}{} with all else exact, without the "
           "reference's own error.",
           m.name, scene::compensation_in_words(m.shipped), unit,
           significant(m.shipped_quantile, 2)));
