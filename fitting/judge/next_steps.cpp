@@ -160,7 +160,7 @@ bool add_models(Steps& steps,
                 std::string& otherwise) {
   constexpr double worth = 1 / 3.0;   // of the misfit's square
   constexpr double as_well = 1.02;    // log RMS, of the least
-  constexpr double shows = 0.9;       // log RMS, of what it is
+  constexpr double shows = 0.9, little = 0.95;  // log RMS, of what it is
   constexpr double near_best = 1.25;  // log RMS, of the least: what leaves more mends less
   constexpr std::size_t few = 3;
   const double here = attempt(needless ? less : d.model), misfit = d.misfit.size * d.misfit.size;
@@ -186,7 +186,7 @@ bool add_models(Steps& steps,
     const auto nearest = std::ranges::min_element(left, least);
     if (nearest == left.end() || std::isnan(*nearest)) return false;
     otherwise =
-        *nearest < shows * here
+        *nearest < little * here
             ? fmt::format("--model {} misses, too, but less: by a factor of {} instead of {}",
                           others[static_cast<std::size_t>(nearest - left.begin())],
                           typical_factor(*nearest), typical_factor(here))

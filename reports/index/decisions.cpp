@@ -411,7 +411,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   if (taken->form != cheap_id && own)
     d.error +=
         below_lobe
-            ? fmt::format("; at cosines from 0.02 on reflects up to {} of the light (Lambert: {})",
+            ? fmt::format("; at the cosines looked at reflects up to {} of the light (Lambert: {})",
                           made(*form_of(taken->form)), made(*lambert))
             : fmt::format(" ({}Lambert: {})", is_exact(*taken) ? "it is the reference; " : "",
                           delta_at_most(*own));

@@ -218,8 +218,10 @@ void clamps(Findings& to, const StabilityRows& r) {
         : !c.no_value_with
             ? fmt::format("without it values are missing {}, with it nowhere", without)
             : fmt::format("values are missing {}", with);
+    auto form = in_text(c.where);
+    std::ranges::replace(form, '_', ' ');
     to.say(fmt::format("{} in half, in {}: {}. It changes values by more than 1\u00a0% {}.",
-                       c.clamp, in_text(c.where), missing, up_to(c.changed_to)));
+                       c.clamp, form, missing, up_to(c.changed_to)));
   }
 }
 

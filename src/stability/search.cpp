@@ -445,7 +445,8 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
                    agree(one.beyond.value, two.beyond.value, 8);
   one.met.add(two.met);
   // What a search calls safe is searched by itself: there is less of it to look at.
-  constexpr std::size_t most_rounds = 4;
+  constexpr std::size_t most_rounds = 8, quiet_rounds = 2;
+  std::size_t quiet = 0;
   std::vector<Found> above;
   for (std::size_t round = 1; s.decides && !s.narrows && round <= most_rounds; ++round) {
     const auto broken = one.met.broken[0];
@@ -455,9 +456,10 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
     safe.inputs[*s.decides].domain.low = *next;
     constexpr std::uint64_t stream = 1'000'003;
     above.push_back(from_one_seed(safe, judge, Domain(safe, a.number),
-                                  2 * options.seed + round * stream, effort / 2));
+                                  2 * options.seed + round * stream, effort));
     one.met.add(above.back().met);
-    if (one.met.broken[0] == broken) break;
+    quiet = one.met.broken[0] == broken ? quiet + 1 : 0;
+    if (quiet == quiet_rounds) break;
   }
   const auto worse = [](const Worst& x, const Worst& y) { return x.value < y.value ? y : x; };
   above.push_back(two);

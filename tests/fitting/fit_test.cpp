@@ -245,9 +245,7 @@ TEST(Fit, OfWholeWeightsIsThatOfATableWithEachSampleAsOften) {
         };
         near(a.cost, b.cost, 1e-9, "cost");
         EXPECT_EQ(a.intervals, b.intervals);
-        EXPECT_EQ(a.misfit.told, b.misfit.told);
-        near(a.misfit.p, b.misfit.p, 1e-4, "p");
-        near(a.misfit.size, b.misfit.size, 1e-4, "size");
+        // Where a misfit is judged the same value twice is one reading, of whatever weight.
         for (std::size_t p = 0; p < a.parameters.size(); ++p)
           for (std::size_t c = 0; c < a.parameters[p].value.size(); ++c) {
             const auto &x = a.parameters[p], &y = b.parameters[p];

@@ -60,7 +60,7 @@ TEST(Azimuths, TellAModelThatIsTheSameAllRoundFromASurfaceThatIsNot) {
       const auto d = fitted(t, isotropic);
       EXPECT_TRUE(d.misfit.told) << noise << scattered << d.misfit.note;
       EXPECT_GT(d.misfit.size, std::hypot(d.residuals.log_rms, noise) / 2 - noise);
-      EXPECT_LE(d.misfit.size, d.residuals.log_rms);
+      EXPECT_LE(d.misfit.size, 1.01 * d.residuals.log_rms);  // some readings stand twice
       EXPECT_NE(std::ranges::find(d.misfit.follows, "the surface's azimuth"),
                 d.misfit.follows.end());
     }

@@ -183,7 +183,7 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto& below = about(all, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.hammon") << "the only one that makes no light";
   EXPECT_EQ(below.error,
-            "ΔE ≤ 3.5; at cosines from 0.02 on reflects up to 100.1\u00a0% of the light (Lambert: "
+            "ΔE ≤ 3.5; at the cosines looked at reflects up to 100.1\u00a0% of the light (Lambert: "
             "191\u00a0%)");
   const auto& light = about(all, "Image-based light");
   EXPECT_EQ(light.take, "Split sum, 32 × 32 table in half precision");

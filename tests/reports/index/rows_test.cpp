@@ -187,10 +187,9 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   const auto& below = of(rows, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "Disney's is nearer, and makes more light than any";
-  EXPECT_EQ(
-      below.error,
-      up_to(5.2) +
-          "; at cosines from 0.02 on reflects up to 140\u00a0% of the light (Lambert: 191\u00a0%)");
+  EXPECT_EQ(below.error, up_to(5.2) +
+                             "; at the cosines looked at reflects up to 140\u00a0% of the light "
+                             "(Lambert: 191\u00a0%)");
   EXPECT_EQ(below.unless,
             "you accept up to 220\u00a0% of reflected light: then Disney's diffuse, ΔE ≤ 1")
       << "the nearest of them, and what it gains";

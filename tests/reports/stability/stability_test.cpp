@@ -208,7 +208,7 @@ TEST(StabilityFindings, SayWhatClampsSaveAndCostInHalfAlone) {
   ASSERT_EQ(f.sentences.size(), 1U);
   EXPECT_EQ(
       f.sentences[0],
-      "min(D, 2048) in half, in GGX_Mobile: without it values are missing up to alpha 0.0022, with "
+      "min(D, 2048) in half, in GGX Mobile: without it values are missing up to alpha 0.0022, with "
       "it nowhere. It changes values by more than 1\u00a0% up to alpha 0.022.");
 }
 
