@@ -139,7 +139,7 @@ TEST(Batch, FitsAgainOnlyWhatHasChanged) {
   EXPECT_EQ(written("--metric relative"), "");
   f.write("in/c.csv.gonio.json", R"({"schema": "gonio.table/1", "notes": {"by": "hand"}})");
   EXPECT_EQ(written("--metric relative"), "c");
-  f.write("out/a.json", "half a docum");
+  f.write("out/a.json", R"({"schema": "gonio.fit/1", "mo)");
   EXPECT_EQ(written("--metric relative"), "a");
   f.write("in/a.csv", "theta_i");
   EXPECT_EQ(written("--metric relative", 3), "a");
