@@ -321,7 +321,7 @@ std::vector<NextDirection> plan_next(const Table& whole,
                     fmt::format("a model that misses the table by a factor of {} beyond noise",
                                 typical_factor(misfit)),
                     "one that fits: no further direction mends that" +
-                        (next.empty() ? "" : "; " + next.front()));
+                        (next.empty() ? "" : " (try " + next.front() + ")"));
   }
   if (unknowns.empty())
     throw bad_input(

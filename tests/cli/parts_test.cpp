@@ -34,7 +34,7 @@ TEST(Parts, TwoThenFourAtOnceInOneFolderLoseNothingAndDoubleNothing) {
   expect_same_documents(f / "out", f / "whole", 14);
   EXPECT_FALSE(fs::exists(f / "out/summary.csv"));
   for (const int i : {1, 6, 13}) fs::remove(f / fmt::format("out/g{}.json", i));
-  f.write("out/g2.json", "half a docum");
+  f.write("out/g2.json", R"({"schema": "gonio.fit/1", "mo)");
   shell(f, at_once(4));
   expect_same_documents(f / "out", f / "whole", 14);
   const auto o = gonio(f, "gather out --json");
