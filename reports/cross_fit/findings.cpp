@@ -192,11 +192,12 @@ void lost_energy(Findings& to, const CrossFitRows& r) {
     const auto &up = roughness.most(), &down = roughness.least();
     const bool both_ways = up.by > 0 && down.by < 0;
     const auto& most = std::abs(up.by) > std::abs(down.by) ? up : down;
-    to.say(fmt::format(
-        "Fitted with single scattering, {} whose light meets several facets look {}, {}.",
-        group.name, looks(both_ways ? up : most), by_log));
+    to.say(
+        fmt::format("Fitted with single scattering, {} whose light meets several facets look {}.",
+                    group.name, looks(both_ways ? up : most)));
     if (both_ways) to.say(fmt::format("At other roughnesses {} look {}.", group.name, looks(down)));
-    to.say(fmt::format("F0 of {} shifts {} there.", group.name, span(f0, signed_percent)));
+    to.say(
+        fmt::format("F0 of {} shifts {} there, {}.", group.name, span(f0, signed_percent), by_log));
     if (f0.at_bound > 0)
       to.say(
           fmt::format("The shift of F0 is known for {} values; the others ended at a bound or "
