@@ -139,7 +139,7 @@ class Readings {
     const auto [low, high] = std::minmax(a.nol, a.nov);
     return seen_
         .insert({place(low), place(high), place(a.voh), static_cast<std::int64_t>(channel),
-                 std::bit_cast<std::int64_t>(y)})
+                 std::bit_cast<std::int32_t>(static_cast<float>(y))})  // but for a last digit
         .second;
   }
 
