@@ -127,7 +127,7 @@ std::vector<std::vector<double>> sample_of(const BoundModel& start,
   return seen;
 }
 
-/// What a target asks of a map before its texels are kept, of those that know all.
+/// Summary that a target needs before its texels are kept: of the texels that know every parameter.
 MapSummary summary_of(const BoundModel& start, const std::vector<std::vector<double>>& seen) {
   constexpr double strong = 0.99;  // a texel whose fit went astray sets nothing for all others
   std::vector<double> f0, kd;

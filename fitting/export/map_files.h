@@ -19,7 +19,7 @@ struct MapTextures {
 
 /// Half of the sides of a plane that has an image's shape and fits into a square of 2.
 std::array<float, 2> half_sides(std::size_t width, std::size_t height);
-/// What the textures were made of, as a document that files of other formats keep.
+/// Document that a file of another format keeps: the model and the stack that the textures were made of.
 std::string document_of(const MapExport&, const std::string& stack);
 
 /// \param stack  name of the map's stack, which stands in the file

@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// What a target makes of a map: what it keeps of each texel, f of that, and files of textures that show it.
+/// Texels of a map as a target keeps them, f of these, and the files with their textures.
 
 #include <cstddef>
 #include <memory>

@@ -165,11 +165,12 @@ std::vector<std::string> verdict(const scene::Plan& p, const std::string& unit) 
           m.name,
           m.speedup < 1 ? fmt::format("takes {} the time", times(1 / m.speedup))
                         : "is " + speed(m.speedup)));
-      out.push_back(fmt::format(
-          "For {} {} comes nearest of those that ship: off by {}{} with all else exact, without the "
-          "reference's own error.",
-          m.name, scene::compensation_in_words(m.shipped), unit,
-          significant(m.shipped_quantile, 2)));
+      out.push_back(
+          fmt::format("For {} {} comes nearest of those that ship: off by {}{} with all else "
+                      "exact, without the "
+                      "reference's own error.",
+                      m.name, scene::compensation_in_words(m.shipped), unit,
+                      significant(m.shipped_quantile, 2)));
     }
   say_errors(out, p, unit);
   say_broken(out, p, unit);
@@ -241,7 +242,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
     t.add(capital(words_of(e.effect)),
           e.keep   ? Cell{"keep" + form_words(e.form), {}, {}, "verdict-yes"}
           : absent ? Cell{"absent", {}, {}, "muted"}
-                   : Cell{instead(m, e).empty() ? "drop" : "simplify" + instead(m, e)},
+                   : Cell{(is_absence(m.forms[e.effect]) ? "drop" : "simplify") + instead(m, e)},
           absent   ? "–"
           : proved ? at_most(e.error_if_dropped)
                    : significant(e.error_if_dropped, 2),

@@ -443,32 +443,32 @@ Looked search(const Subject& s, const Arithmetic& a, const SearchOptions& option
   };
   looked.settled = agree(one.relative.value, two.relative.value, few) &&
                    agree(one.beyond.value, two.beyond.value, 8);
-  one.met.add(two.met);
+  const auto take = [&](const Found& more) {
+    one.met.add(more.met);
+    const auto keep = [](Worst& worst, const Worst& other) {
+      if (worst.value < other.value) worst = other;
+    };
+    keep(one.relative, more.relative);
+    keep(one.ulp, more.ulp);
+    keep(one.beyond, more.beyond);
+  };
+  take(two);
   // What a search calls safe is searched by itself: there is less of it to look at.
   constexpr std::size_t most_rounds = 8, quiet_rounds = 2;
+  constexpr std::uint64_t stream = 1'000'003;
+  const bool has_limit = s.decides && !s.narrows && !judge.wide() && judge.measures_errors();
   std::size_t quiet = 0;
-  std::vector<Found> above;
-  for (std::size_t round = 1; s.decides && !s.narrows && round <= most_rounds; ++round) {
+  for (std::size_t round = 1; has_limit && quiet < quiet_rounds && round <= most_rounds; ++round) {
     const auto broken = one.met.broken[0];
     const auto next = broken ? domain.above(*s.decides, *broken) : std::nullopt;
-    if (judge.wide() || !judge.measures_errors() || !next) break;
+    if (!next) break;
     Subject safe = s;
     safe.inputs[*s.decides].domain.low = *next;
-    constexpr std::uint64_t stream = 1'000'003;
-    above.push_back(from_one_seed(safe, judge, Domain(safe, a.number),
-                                  2 * options.seed + round * stream, effort));
-    one.met.add(above.back().met);
+    take(from_one_seed(safe, judge, Domain(safe, a.number), 2 * options.seed + round * stream,
+                       effort));
     quiet = one.met.broken[0] == broken ? quiet + 1 : 0;
-    if (quiet == quiet_rounds) break;
   }
-  const auto worse = [](const Worst& x, const Worst& y) { return x.value < y.value ? y : x; };
-  above.push_back(two);
   looked.relative = one.relative, looked.ulp = one.ulp, looked.beyond = one.beyond;
-  for (const auto& found : above) {
-    looked.relative = worse(looked.relative, found.relative);
-    looked.ulp = worse(looked.ulp, found.ulp);
-    looked.beyond = worse(looked.beyond, found.beyond);
-  }
   if (a.number == Number::half && !looked.relative.at.empty()) {
     half_flags = {};
     value_of(s, a, looked.relative.at);
