@@ -158,8 +158,8 @@ bool add_models(Steps& steps,
                 const std::string& less,
                 bool needless,
                 std::string& otherwise) {
-  constexpr double worth = 1 / 3.0;   // of the misfit's square
-  constexpr double as_well = 1.02;    // log RMS, of the least
+  constexpr double worth = 1 / 3.0;             // of the misfit's square
+  constexpr double as_well = 1.02;              // log RMS, of the least
   constexpr double shows = 0.9, little = 0.95;  // log RMS, of what it is
   constexpr double near_best = 1.25;  // log RMS, of the least: what leaves more mends less
   constexpr std::size_t few = 3;
