@@ -95,7 +95,7 @@ std::vector<Case> cases() {
           {"directions per texel", usual, true},
           {"logarithms", log},
           {"anisotropic", anisotropic},
-          {"GTR, its terms one by one", gtr},
+          {"GTR", gtr},
           {"normals refined", normals}};
 }
 

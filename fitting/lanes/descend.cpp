@@ -370,11 +370,21 @@ void variances(const TexelUnknowns& u,
   }
 }
 
+/// x and y turned, a texel a lane.
+struct Turned {
+  explicit Turned(const float* turn) {
+    for (std::size_t k = 0; k < by.size(); ++k) by[k] = load<B>(turn + k * padding);
+  }
+  B x(const B& x, const B& y) const { return by[0] * x + by[1] * y; }
+  B y(const B& x, const B& y) const { return by[2] * x + by[3] * y; }
+  std::array<B, 4> by;
+};
+
 void angles(const TexelDirections& d) {
   const auto rows = [](const float* at) {
     return [at](std::size_t row) { return load<B>(at + row * padding); };
   };
-  const auto frame = rows(d.frame), turn = rows(d.turn);
+  const auto frame = rows(d.frame);
   const Coordinates<B> x{frame(0), frame(1), frame(2)}, y{frame(3), frame(4), frame(5)},
       z{frame(6), frame(7), frame(8)};
   const auto in_frame = [&](const float* v, std::size_t i) {
@@ -386,24 +396,38 @@ void angles(const TexelDirections& d) {
     const auto with = [&](const Coordinates<B>& a) { return a.x * vx + a.y * vy + a.z * vz; };
     return Coordinates<B>{with(x), with(y), with(z)};
   };
-  const std::array t{turn(0), turn(1), turn(2), turn(3)};
-  const auto x_of = [&](const B& vx, const B& vy) { return t[0] * vx + t[1] * vy; };
-  const auto y_of = [&](const B& vx, const B& vy) { return t[2] * vx + t[3] * vy; };
+  const Turned turned(d.turn);
+  const B zero(0), one(1), harmless = constant<B>(0.5L), least(d.least);
+  const bool keeps = d.least > 0;
   for (std::size_t i = 0; i < d.samples; ++i) {
-    const auto a = angles_between(in_frame(d.light, i), in_frame(d.view, i));
+    auto a = angles_between(in_frame(d.light, i), in_frame(d.view, i));
+    const auto above = zero < a.nol && zero < a.nov && zero <= a.noh;
+    store<B>(d.above + i * lanes<B>, select<B>(above, one, zero));
+    if (keeps) a.nol = max<B>(a.nol, least), a.nov = max<B>(a.nov, least);
     const std::array all{a.nol,
                          a.nov,
                          a.noh,
                          a.voh,
                          a.sin2_theta_h,
-                         x_of(a.xoh, a.yoh),
-                         y_of(a.xoh, a.yoh),
-                         x_of(a.xol, a.yol),
-                         y_of(a.xol, a.yol),
-                         x_of(a.xov, a.yov),
-                         y_of(a.xov, a.yov)};
-    for (std::size_t k = 0; k < all.size(); ++k) store<B>(d.angles[k] + i * lanes<B>, all[k]);
+                         turned.x(a.xoh, a.yoh),
+                         turned.y(a.xoh, a.yoh),
+                         turned.x(a.xol, a.yol),
+                         turned.y(a.xol, a.yol),
+                         turned.x(a.xov, a.yov),
+                         turned.y(a.xov, a.yov)};
+    for (std::size_t k = 0; k < all.size(); ++k)
+      store<B>(d.angles[k] + i * lanes<B>, keeps ? all[k] : select<B>(above, all[k], harmless));
   }
+}
+
+void turn(const TexelTurn& t) {
+  const Turned turned(t.turn);
+  for (std::size_t i = 0; i < t.samples * lanes<B>; i += lanes<B>)
+    for (std::size_t k = 0; k < t.to.size(); k += 2) {
+      const B x = load<B>(t.from[k] + i), y = load<B>(t.from[k + 1] + i);
+      store<B>(t.to[k] + i, turned.x(x, y));
+      store<B>(t.to[k + 1] + i, turned.y(x, y));
+    }
 }
 
 void read(const TexelRows& t) {
@@ -483,6 +507,7 @@ LaneKernels lane_table() {
           fused_texels(),
           worth_table(std::make_index_sequence<max_columns>{}),
           angles,
+          turn,
           read,
           descend,
           compare,

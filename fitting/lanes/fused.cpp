@@ -3,6 +3,7 @@
 
 #include "brdf/formula/diffuse.h"
 #include "brdf/formula/masking.h"
+#include "brdf/formula/ndf.h"
 #include "brdf/formula/ndf_anisotropic.h"
 #include "brdf/formula/ndf_ggx.h"
 #include "fitting/lanes/worth.h"
@@ -39,7 +40,8 @@ constexpr auto table(FusedList<Models...>) {
 
 using Hot =
     FusedList<ModelTerms<TermList<Lambert>, TermList<Ggx, SmithGgxCorrelated, Schlick>>,
-              ModelTerms<TermList<Lambert>, TermList<GgxAniso, SmithGgxAnisoCorrelated, Schlick>>>;
+              ModelTerms<TermList<Lambert>, TermList<GgxAniso, SmithGgxAnisoCorrelated, Schlick>>,
+              ModelTerms<TermList<Lambert>, TermList<Gtr, SmithGgxCorrelated, Schlick>>>;
 
 }  // namespace
 

@@ -56,8 +56,20 @@ struct TexelDirections {
   bool shared;  ///< light and view are [3][sample], else [3][sample][lane]
   const float *light, *view;
   const float* frame;  ///< tangent, bitangent and normal: [9][padding]
-  const float* turn;   ///< [4][padding]: x' = turn₀ x + turn₁ y, y' = turn₂ x + turn₃ y
+  const float* turn;   ///< see TexelTurn
+  /// 0: a sample whose light or view is below the surface gets `above` 0 and 0.5 for all angles.  Else cosines are no less than this.
+  float least;
+  float* above;                   ///< [sample][lane]: 1 where light and view are above the surface
   std::array<float*, 11> angles;  ///< [sample][lane], as a Block with its frame has them
+};
+
+/// Tangents that turn about their normals.
+struct TexelTurn {
+  std::size_t samples;
+  const float* turn;  ///< [4][padding]: x' = turn₀ x + turn₁ y, y' = turn₂ x + turn₃ y
+  std::array<const float*, 6>
+      from;  ///< x and y of half vector, light and view, as in a Block's frame
+  std::array<float*, 6> to;
 };
 
 /// Rows of values, texel fastest, of which several registers of texels are read at once: their rows lie far apart, and what is near is
@@ -107,6 +119,7 @@ struct LaneKernels {
   std::span<const FusedTexels> fused;
   std::array<WorthOfColumns, max_columns + 1> worth;  ///< [k]: k columns, r one of them
   void (*angles)(const TexelDirections&);
+  void (*turn)(const TexelTurn&);
   void (*read)(const TexelRows&);
   /// Sums of a pass at `tried` → the state, and the next `tried`.
   /// \return whether any texel is on its way

@@ -48,7 +48,9 @@ TexelRegister::TexelRegister(const TexelTask& task,
   for (auto* c : {&cosine_, &slope_}) *c = Column<float>(room, 1);
   for (auto* c : {&frame_, &base_}) *c = Column<float>(9 * padding);
   turn_ = Column<float>(4 * padding);
-  usable_.resize(room);
+  usable_ = Column<float>(room);
+  if (task.turns())
+    for (auto& c : unturned_) c = Column<float>(room);
   read_shared();
 }
 
@@ -67,7 +69,7 @@ void TexelRegister::read_shared() {
   for (auto& c : shared_angles_) c = Column<float>(in_.images + padding, 0.5F);
   shared_weight_ = Column<float>(in_.images + padding);
   for (std::size_t i = 0; i < in_.images; ++i) {
-    if (!usable_[i * width_]) continue;
+    if (usable_[i * width_] == 0) continue;
     for (std::size_t k = 0; k < shared_angles_.size(); ++k)
       shared_angles_[k][shared_image_.size()] = angles_[k][i * width_];
     shared_weight_[shared_image_.size()] = angles_[0][i * width_];
@@ -104,17 +106,12 @@ void TexelRegister::put_frames(std::span<const std::size_t> texels) {
 }
 
 /// Angles of all samples; those below the surface get harmless ones.
-void TexelRegister::make_angles() {
-  TexelDirections d{in_.images,   in_.shared, light_.data(), view_.data(), frame_.data(),
-                    turn_.data(), {}};
+void TexelRegister::make_angles(float least) {
+  TexelDirections d{in_.images,   in_.shared,     light_.data(),
+                    view_.data(), frame_.data(),  turn_.data(),
+                    least,        usable_.data(), {}};
   for (std::size_t k = 0; k < angles_.size(); ++k) d.angles[k] = angles_[k].data();
   lanes_.angles(d);
-  const std::size_t full = in_.images * width_;
-  for (std::size_t i = 0; i < full; ++i) {
-    usable_[i] = angles_[0][i] > 0 && angles_[1][i] > 0 && std::isfinite(angles_[2][i]);
-    if (!usable_[i])
-      for (auto& c : angles_) c[i] = 0.5F;
-  }
 }
 
 /// The same angles of all, and no value masked: false where one is.
@@ -154,11 +151,13 @@ void TexelRegister::gather_lanes(std::span<const std::size_t> texels) {
           light_[to] = in_.light[from];
           view_[to] = in_.view[from];
         }
+  const std::size_t full = in_.images * width_, room = (full + padding - 1) / padding * padding;
   if (!same_angles_) {
     put_frames(texels);
     make_angles();
+    for (std::size_t k = 0; k < unturned_.size() && task_.turns(); ++k)
+      std::copy_n(angles_[5 + k].data(), full, unturned_[k].data());
   }
-  const std::size_t full = in_.images * width_, room = (full + padding - 1) / padding * padding;
   if (task_.asked.refine_normals) std::copy_n(angles_[0].data(), room, cosine_.data());
   std::fill_n(signal_.data(), padding, 0.0F);
   count_.fill(0);
@@ -173,8 +172,8 @@ void TexelRegister::gather_lanes(std::span<const std::size_t> texels) {
       for (std::size_t l = 0; l < width_; ++l) {
         const float y = from[texels[l]], sum = y + offset;
         const std::size_t at = i * width_ + l;
-        const bool use =
-            usable_[at] && y >= least && y <= 1e18F && (l2 || sum > static_cast<float>(faintest));
+        const bool use = usable_[at] > 0 && y >= least && y <= 1e18F &&
+                         (l2 || sum > static_cast<float>(faintest));
         const float w = use ? (l2 ? angles_[0][at] : 1 / sum) : 0;
         target_[c][at] = use ? y : 0;
         weight_[c][at] = w;
@@ -224,7 +223,10 @@ void TexelRegister::turn(const float* deg) {
     turn_[1 * padding + l] = s;
     turn_[2 * padding + l] = -s;
   }
-  make_angles();
+  TexelTurn about{in_.images, turn_.data(), {}, {}};
+  for (std::size_t k = 0; k < unturned_.size(); ++k)
+    about.from[k] = unturned_[k].data(), about.to[k] = angles_[5 + k].data();
+  lanes_.turn(about);
 }
 
 bool TexelRegister::is_at(const float* unknowns, std::size_t count) {
@@ -254,13 +256,8 @@ void TexelRegister::tilt(const float* tilt) {
       for (const auto& a : {x, y})
         turn_[k++ * padding + l] = static_cast<float>(dot(by, a) / length);
   }
-  const auto above = usable_;
-  make_angles();
-  usable_ = above;  // as the given normals have it
-  // What a refined normal puts below the surface stays just above it.
-  constexpr float least = 1e-3F;
-  for (std::size_t i = 0; i < in_.images * width_; ++i)
-    for (std::size_t k = 0; k < 2; ++k) angles_[k][i] = std::max(angles_[k][i], least);
+  constexpr float just_above = 1e-3F;  // stays what a refined normal puts below the surface
+  make_angles(just_above);
 }
 
 std::size_t TexelRegister::images_with_light(std::size_t lane) const {

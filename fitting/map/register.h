@@ -55,7 +55,8 @@ class TexelRegister {
   bool gather_shared(std::size_t first);
   void gather_lanes(std::span<const std::size_t> texels);
   void put_frames(std::span<const std::size_t> texels);
-  void make_angles();
+  /// \param least  see TexelDirections
+  void make_angles(float least = 0);
   Direction axis(const Column<float>& frame, std::size_t k, std::size_t lane) const;
   Direction of_image(const Column<float>& directions, std::size_t image, std::size_t lane) const;
   /// Sum of a lane's compared values of an image, over channels, times n·l of the given normal; none without values.
@@ -72,10 +73,11 @@ class TexelRegister {
   std::array<Column<float>, 11> angles_;
   std::array<Column<float>, max_channels> target_, weight_;
   Column<float> light_, view_, cosine_, slope_;
-  Column<float> frame_, base_;        ///< tangents, bitangents and normals: as tried, and as given
-  Column<float> turn_;                ///< see TexelDirections
-  std::vector<float> at_;             ///< turns or tilts that angles are of; empty: as given
-  std::vector<std::uint8_t> usable_;  ///< [sample][lane]: above the surface
+  Column<float> frame_, base_;  ///< tangents, bitangents and normals: as tried, and as given
+  Column<float> turn_;          ///< see TexelDirections
+  std::vector<float> at_;       ///< turns or tilts that angles are of; empty: as given
+  std::array<Column<float>, 6> unturned_;  ///< x and y before a tangent turns them
+  Column<float> usable_;                   ///< [sample][lane]: 1 above the surface as given
   LaneSamples samples_;
   Column<float> signal_;
   std::array<float, padding> count_{};

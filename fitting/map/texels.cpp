@@ -21,7 +21,9 @@ constexpr float nan = std::numeric_limits<float>::quiet_NaN();
 /// Steps of the first round, after which texels that are not there yet wait for a register full of their kind; and of all.
 constexpr int first_steps = 8, most_steps = 150;
 /// Steps from each of several starts, after which the lowest goes on.
-constexpr int steps_of_each = 16;
+constexpr int steps_of_each = 10;
+/// Starts from which a texel descends: the lowest of those that may lie in valleys of their own.
+constexpr std::size_t starts_kept = 2;
 
 constexpr double normal_quantile = 1.959963984540054;  // of 0.975
 
@@ -30,6 +32,36 @@ struct Waiting {
   std::size_t texel;
   std::vector<float> x;
   float damping;
+};
+
+/// The starts at which each lane's cost is lowest, best first.
+class LowestStarts {
+ public:
+  explicit LowestStarts(std::size_t most) : most_(most) {}
+  /// \param x  [unknown][padding]   \param cost  [padding]
+  void add(const std::vector<float>& x, const float* cost) {
+    if (x_.size() < most_) {
+      x_.push_back(x);
+      cost_.emplace_back().fill(std::numeric_limits<float>::infinity());
+    }
+    for (std::size_t l = 0; l < padding; ++l) {
+      std::size_t at = 0;
+      while (at < cost_.size() && !(cost[l] < cost_[at][l])) ++at;
+      if (at == cost_.size()) continue;
+      for (std::size_t k = cost_.size() - 1; k > at; --k) put(k, l, x_[k - 1], cost_[k - 1][l]);
+      put(at, l, x, cost[l]);
+    }
+  }
+  std::vector<std::vector<float>>& starts() { return x_; }
+
+ private:
+  void put(std::size_t k, std::size_t lane, const std::vector<float>& x, float cost) {
+    for (std::size_t i = lane; i < x.size(); i += padding) x_[k][i] = x[i];
+    cost_[k][lane] = cost;
+  }
+  std::size_t most_;
+  std::vector<std::vector<float>> x_;
+  std::vector<std::array<float, padding>> cost_;
 };
 
 /// Fits texels, a register full at a time.
@@ -43,7 +75,7 @@ class LaneFit {
   void find_start(std::span<const TexelTask::Start> starts);
   std::vector<float> start_of(std::span<const TexelTask::Start> starts);
   void add_middles(std::vector<std::vector<float>>& begins) const;
-  void begin_tilted(std::span<const TexelTask::Start>, std::vector<std::vector<float>>& begins);
+  void begin_tilted(std::span<const TexelTask::Start>, LowestStarts& begins);
   bool descend(int steps);
   void fit(std::span<const std::size_t> texels, std::span<const Waiting> waiting, int steps);
   void take_lowest(std::vector<float>& lowest);
@@ -134,32 +166,16 @@ std::vector<float> LaneFit::start_of(std::span<const TexelTask::Start> starts) {
   return {state_.x, state_.x + n() * padding};
 }
 
-/// The two best starts of a group from normals that are spread over a cone, of the lane's own among them: from one far off other
-/// parameters are led astray before it is found.
-void LaneFit::begin_tilted(std::span<const TexelTask::Start> group,
-                           std::vector<std::vector<float>>& begins) {
+/// Looks at starts whose normals are spread over a cone, the lane's own among them: from one far off other parameters are led astray
+/// before it is found.
+void LaneFit::begin_tilted(std::span<const TexelTask::Start> group, LowestStarts& begins) {
   const auto& u = task_.unknowns;
   const std::size_t first = task_.unknown_of[task_.model().value_count];
-  std::array<std::vector<float>, 2> best;
-  std::array<std::array<float, padding>, 2> cost;
-  for (auto& c : cost) c.fill(std::numeric_limits<float>::infinity());
-  for (auto& x : best) x.assign(n() * padding, 0.0F);
   std::vector<TexelTask::Start> some;  // of the cone: the descent finds the rest
   for (std::size_t k = 1; k < group.size(); k += 3) some.push_back(group[k]);
   if (some.empty()) some.assign(group.begin(), group.end());
   const auto look = [&](std::span<const TexelTask::Start> shapes) {
-    const auto x = start_of(shapes);
-    for (std::size_t l = 0; l < padding; ++l) {
-      const float here = state_.cost[l];
-      const std::size_t at = here < cost[0][l] ? 0 : here < cost[1][l] ? 1 : 2;
-      if (at == 2) continue;
-      for (std::size_t i = l; i < n() * padding; i += padding) {
-        if (at == 0) best[1][i] = best[0][i];
-        best[at][i] = x[i];
-      }
-      if (at == 0) cost[1][l] = cost[0][l];
-      cost[at][l] = here;
-    }
+    begins.add(start_of(shapes), state_.cost);
   };
   look(group);
   for (const auto tilt : {TexelRegister::Tilt::matt, TexelRegister::Tilt::highlight}) {
@@ -174,7 +190,6 @@ void LaneFit::begin_tilted(std::span<const TexelTask::Start> group,
       std::fill_n(tilt_.data() + padding, padding, static_cast<float>(steep * std::sin(turn)));
       look(some);
     }
-  for (auto& x : best) begins.push_back(std::move(x));
 }
 
 /// Adds the first of these starts with diffuse roughnesses that move: one of 0 does not.
@@ -240,14 +255,15 @@ void LaneFit::fit(std::span<const std::size_t> texels,
                   std::span<const Waiting> waiting,
                   int steps) {
   register_.gather(texels);
-  std::vector<std::vector<float>> begins;
+  LowestStarts lowest_starts(starts_kept);
+  auto& begins = lowest_starts.starts();
   if (waiting.empty()) {
     std::fill_n(tilt_.data(), 2 * padding, 0.0F);
     for (const auto& group : task_.starts)
       if (task_.asked.refine_normals && in_.normal.empty())
-        begin_tilted(group, begins);
+        begin_tilted(group, lowest_starts);
       else
-        begins.push_back(start_of(group));
+        lowest_starts.add(start_of(group), state_.cost);
     if (has_middles_) add_middles(begins);
   }
   register_.in_logarithms();
