@@ -187,7 +187,7 @@ bool add_models(Steps& steps,
     if (nearest == left.end() || std::isnan(*nearest)) return false;
     otherwise =
         *nearest < little * here
-            ? fmt::format("--model {} misses, too, but less: by a factor of {} instead of {}",
+            ? fmt::format("--model {} misses, too, but less: by {} instead of {} on a sample",
                           others[static_cast<std::size_t>(nearest - left.begin())],
                           typical_factor(*nearest), typical_factor(here))
             : fmt::format("none of {} other models is clearly nearer; --models all compares more",

@@ -234,7 +234,8 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
   constexpr std::size_t every = 3;  // what they may follow
   if (m.follows.size() >= every) size += ", varying with every angle";
   for (std::size_t k = 0; k < m.follows.size() && m.follows.size() < every; ++k)
-    size += (k == 0 ? ", varying with " : k + 1 < m.follows.size() ? ", " : " and ") + m.follows[k];
+    size += std::string(k == 0 ? ", varying " : " and ") +
+            (m.follows[k].starts_with("grazing") ? "at " : "with ") + m.follows[k];
   std::vector<std::string> all{"beyond noise the model is off by a factor of " + size +
                                "; intervals allow for it"};
   if (const auto& c = m.worst_cell)

@@ -248,7 +248,7 @@ bool take_last_steps(const NormalEquationsAt& evaluate,
   auto step = next_step(s.at);
   while (step && step->decrease < hidden * s.at.cost) {
     if (step->decrease <= enough * s.at.cost) {
-      s.message = fmt::format("The next step would lower the cost by a share of {:.1g}",
+      s.message = fmt::format("The next step would lower the cost by {:.1g} of its value",
                               s.at.cost > 0 ? step->decrease / s.at.cost : 0);
       return true;
     }

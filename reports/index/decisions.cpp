@@ -86,7 +86,7 @@ std::string streaming_aside(const Facts& f, std::string_view taken, std::string_
   const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
   if (!a || !b) return {};
   if (const auto d = more(*b, *a); d.survives && d.ns > 0) return {};
-  return " (no difference measured in a whole model read from memory)";
+  return " (in a whole model whose inputs come from memory no difference was measured)";
 }
 
 // --- Masking ---
@@ -127,14 +127,14 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
        fmt::format(
-           "typically {} off measured materials (the median of their published fits; by the "
-           "exponents published with them {} have a longer tail)",
+           "typically {} off measured materials, by the median of their published fits (the "
+           "exponents published with them give {} a longer tail)",
            factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
        std::string(no_more),
-       fmt::format(
-           "you fit gamma, too (median {:.2g} of those determined): then GTR with its own Smith, "
-           "typically {}, {}",
-           t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
+       fmt::format("you fit gamma, too (median {:.2g} where the fit determines it): then GTR with "
+                   "its own Smith, "
+                   "typically {}, {}",
+                   t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
 // --- Fresnel ---
@@ -411,8 +411,9 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   if (taken->form != cheap_id && own)
     d.error +=
         below_lobe
-            ? fmt::format("; at the cosines looked at reflects up to {} of the light (Lambert: {})",
-                          made(*form_of(taken->form)), made(*lambert))
+            ? fmt::format(
+                  "; diffuse and lobe together reflect up to {} of the light (with Lambert {})",
+                  made(*form_of(taken->form)), made(*lambert))
             : fmt::format(" ({}Lambert: {})", is_exact(*taken) ? "it is the reference; " : "",
                           delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);

@@ -255,8 +255,9 @@ Section fresnel(const ReportIndex& i) {
   }
   return {
       fresnel_title,
-      "Greatest ΔE2000 of a rough surface under even light, over roughness and 19 views, from "
-      "cosine 0.1 to 1; rounded up.",
+      "Each number is the greatest ΔE2000 of a rough surface under even light, over all "
+      "roughnesses "
+      "and 19 views (cosine 0.1 to 1), rounded up.",
       {t,
        Markup{fmt::format(
            R"(<p class="small key-of"><span class="unseen">unseen, to {0}</span><span class="beside">side by side, to {1}</span><span class="shows">seen</span><span class="unknown">– not computed</span></p>)",
@@ -363,8 +364,8 @@ std::string index_page_html(const ReportIndex& i) {
             "light the reference is transport between the facets under even light. For single "
             "lights it is random walks, whose error is included, on a ball lit from 30° and from "
             "120° to the view.",
-            "Bounces are compensated only where one bounce shows and where that gains ΔE2000 1 or "
-            "more.",
+            "Multiple scattering is compensated only where the missing light is seen, and where "
+            "compensation lowers ΔE2000 by 1 or more.",
             "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
             "A cost is the median difference within a process.",
             "Times are medians over several processes on this machine. A difference counts only "

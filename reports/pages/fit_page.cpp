@@ -136,8 +136,12 @@ Points warnings(const FitDocument& d,
   for (const auto& [reason, who] : limited)
     warn("Only a limit (95 %):",
          fmt::format("{}{}{}.", fmt::join(who, ", "), reason.empty() ? "" : ", since ", reason));
-  if (const auto who = named({at_bound}); !who.empty())
-    warn("At the end of its range:", who + ". The data push beyond it.");
+  std::vector<std::string> ends;
+  for (const auto& r : rows)
+    if (r.status == at_bound) ends.push_back(fmt::format("{} is {}", r.label, plain(r.value)));
+  if (!ends.empty())
+    warn("At the end of its range:",
+         fmt::format("{}. The data push beyond it.", fmt::join(ends, ", ")));
   if (const auto tied = strongest_correlation(d); tied && std::abs(tied->rho) > 0.95)
     warn("Hardly separable:",
          fmt::format("{} and {} (correlation {}).", tied->a, tied->b, rho_text(tied->rho)));
@@ -239,7 +243,7 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
                                         signed_percent(high)));
   };
   page::Table t{columns(fmt::format("|>value|>standard error|>95 % interval|status|{}interval "
-                                    "around the value (the picture spans ±{})",
+                                    "around the value (each picture spans ±{} of its value)",
                                     with_truth ? ">truth|>off by|" : "", percent(reach))),
                 {},
                 "scroll parameters"};

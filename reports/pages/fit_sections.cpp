@@ -214,7 +214,7 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
       degrees_text(p.theta_i_deg[at]), share(top),
       known(p.data_albedo[at][channel])
           ? fmt::format("; the table reflects {}{}", share(p.data_albedo[at][channel]),
-                        has_error ? fmt::format(" (its sum is off by {} at most)",
+                        has_error ? fmt::format(" (error of this integral: at most {})",
                                                 significant(data->error, 2))
                                   : "")
           : "",
@@ -413,7 +413,7 @@ Section solver(const FitDocument& d, Pictures& pictures) {
       pictures.figures.push_back(std::move(f));
     } else {
       beside.parts.emplace_back(Prose{fmt::format(
-          "The cost changed by {} over {}: too little to draw.", percent(high / low - 1), steps)});
+          "The cost changed by {} over {}, so there is no plot.", percent(high / low - 1), steps)});
     }
   }
   double total = 0;

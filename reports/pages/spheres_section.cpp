@@ -66,8 +66,9 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
             : "under " + shown[0]->light,
         delta_e_text(std::max(tail, 0.01)), part);
   const auto half = fmt::format(
-      "Half of the pixels are within ΔE2000 {} (worst under {}), 95\u202f% within {}{}.",
-      delta_e_text(most.median), w.light, delta_e_text(tail),
+      "Under {}, the worst light, half of the pixels are within ΔE2000 {}, and 95\u202f% within "
+      "{}{}.",
+      w.light, delta_e_text(most.median), delta_e_text(tail),
       &widest == &w ? "" : fmt::format(" (worst under {})", widest.light));
   const double apart = widest.models[best].spacing_p95;
   const auto spacing =
@@ -107,6 +108,13 @@ Markup row_of(const Lights& shown, const Spheres& s, std::size_t m, std::string_
 }
 
 /// A row for each light, or for each of several models.
+/// True where pixels show nearest samples: the table's format defines no values between them.
+bool has_nearest(const Spheres& s) {
+  return std::ranges::any_of(s.lights, [](const auto& l) {
+    return !l.models.empty() && std::isfinite(l.models[0].spacing_median);
+  });
+}
+
 page::Table numbers(const Lights& shown, const Spheres& s, std::string_view name) {
   const auto text = [](double x) { return Cell(std::isfinite(x) ? delta_e_text(x) : "–"); };
   page::Table t;
@@ -124,9 +132,7 @@ page::Table numbers(const Lights& shown, const Spheres& s, std::string_view name
     }
     return t;
   }
-  const bool spacing = std::ranges::any_of(s.lights, [](const auto& l) {
-    return !l.models.empty() && std::isfinite(l.models[0].spacing_median);
-  });
+  const bool spacing = has_nearest(s);
   t.head = columns(spacing ? "light|>covered|>ΔE2000: median|>95th percentile|>from spacing "
                              "only: median|>from spacing only: 95th percentile"
                            : "light|>covered|>ΔE2000: median|>95th percentile");
@@ -150,17 +156,20 @@ std::string how(const Spheres& s, bool has_columns) {
       "Front light: three lights on the viewer's side. Rim light: one of these, and two from "
       "behind "
       "the sphere. Flash: one, 10° above the viewer. The table's 99th percentile of "
-      "luminance under each light is shown as white. A grid is interpolated. A list shows its "
-      "nearest sample, where both its "
-      "directions are within {}°; samples mirrored at the plane of incidence, or with light and "
-      "view exchanged, also count.{}{}",
-      Spheres::reach_deg,
+      "luminance under each light is shown as white. {}{}{}{}",
+      has_nearest(s)
+          ? fmt::format("Each pixel shows the table's nearest sample. Light and viewer may be "
+                        "up to {}° off; samples mirrored at the plane of incidence, or with "
+                        "light and view exchanged, also count.",
+                        Spheres::reach_deg)
+          : std::string("For each pixel the table is interpolated."),
       colours
           ? std::string()
           : fmt::format(" Shown is the grey of {}{}.", s.channels.size() > 1 ? "the mean of " : "",
                         fmt::join(s.channels, ", ")),
-      has_columns
-          ? " Covered: share of the lit pixels for which the table has a value. From spacing only: "
+      has_columns ? " Covered: share of the lit pixels for which the table has a value." : "",
+      has_columns && has_nearest(s)
+          ? " From spacing only: "
             "what the spacing of the samples would make of an exact model, here the fit sampled at "
             "the table's directions."
           : "");

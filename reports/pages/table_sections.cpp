@@ -224,7 +224,7 @@ page::Section curves_section(const gonio::Table& t,
   out.text = fmt::format(
       "Points: the table's samples{}. {}No value includes the cosine.{}{}",
       has(&Cut::at, "theta_i") && t.has_bins()
-          ? ", at the angles of its grid (interpolated in the other angles)"
+          ? ", at the grid's own angles θ_i; interpolated in the other angles"
           : "",
       with_model ? "Lines: the fitted model. " : "",
       any(&Cut::uncertainty) ? " Bars are 95 % intervals by the stated uncertainties." : "",
@@ -281,7 +281,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
                           ? significant(h.noise_floor) + " 1/sr, from the negative values"
                           : "not found");
   if (h.reciprocity_error)
-    fact("reciprocity", fmt::format("{} median difference of exchanged directions{}{}",
+    fact("reciprocity", fmt::format("{}: median change when light and view are exchanged{}{}",
                                     percent(*h.reciprocity_error),
                                     h.reciprocity_note.empty() ? "" : "; ", h.reciprocity_note));
   else

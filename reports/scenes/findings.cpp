@@ -99,7 +99,7 @@ void savings(Findings& to, const ScenesRows& r) {
       "Leaving out what nobody sees saves {} or more of a shader's time in half of the {} scenes "
       "whose plans hold, and up to {}.{}",
       at_least(middle), held.size(), percent(all.back(), 2),
-      slower.empty() ? "" : fmt::format(" In {} scenes the plan takes longer.", slower.size()));
+      slower.empty() ? "" : fmt::format(" In {} of them the plan takes longer.", slower.size()));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

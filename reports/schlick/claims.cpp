@@ -58,19 +58,19 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
       worst = &m;
   }
   if (!glass || !worst) return;
-  to.judge(
-      "Schlick's error is significantly less than that of other factors",
-      "Burley 2012, Physically-Based Shading at Disney",
-      verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
-      fmt::format("glass ΔE2000 {} against {} of masking",
-                  rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
-      fmt::format(
-          "read as less than half of that of Unreal's joint form, it is so for {} dielectrics. "
-          "It is so for {} metals. For {} Schlick shows up "
-          "to ΔE2000 {}, "
-          "that form up to {}.",
-          of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
-          rounded_up(shown_by_schlick(r, worst->material)), rounded_up(worst->delta_e)));
+  to.judge("Schlick's error is significantly less than that of other factors",
+           "Burley 2012, Physically-Based Shading at Disney",
+           verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
+           fmt::format("glass ΔE2000 {} against {} of masking",
+                       rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
+           fmt::format(
+               "Tested: is its error less than half of that of Unreal's joint form? It is for {} "
+               "dielectrics. "
+               "It is for {} metals. For {} Schlick shows up "
+               "to ΔE2000 {}, "
+               "that form up to {}.",
+               of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
+               rounded_up(shown_by_schlick(r, worst->material)), rounded_up(worst->delta_e)));
 }
 
 void means_metal(Findings& to) {

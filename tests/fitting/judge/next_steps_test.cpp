@@ -211,7 +211,7 @@ TEST(NextSteps, OfModelsThatTakeUpLittleOfAMisfitNameTheNearestAsOneThatMissesTo
   };
   const auto less = steps(0.28);  // a fifth of the square
   ASSERT_EQ(less.size(), 1U);
-  EXPECT_TRUE(less[0].ends_with(" misses, too, but less: by a factor of 1.32 instead of 1.36"))
+  EXPECT_TRUE(less[0].ends_with(" misses, too, but less: by 1.32 instead of 1.36 on a sample"))
       << less[0];
   d.misfit.size = 0.1;
   const auto unseen = steps(0.302);  // more than half of the misfit's square, which nobody sees

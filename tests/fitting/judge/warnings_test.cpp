@@ -75,7 +75,7 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
                 "the largest systematic deviation is near theta_h 16°, theta_d 68°: the model is "
                 "too dark by a factor of 1.43"}));
   m.follows = {"theta_h", "grazing angles"};
-  EXPECT_NE(misfit_in_words(m)[0].find("varying with theta_h and grazing angles;"),
+  EXPECT_NE(misfit_in_words(m)[0].find("varying with theta_h and at grazing angles;"),
             std::string::npos);
   m.worst_cell->difference = 2.4;
   EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is too bright by a factor of 3.4"));

@@ -188,8 +188,8 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "Disney's is nearer, and makes more light than any";
   EXPECT_EQ(below.error, up_to(5.2) +
-                             "; at the cosines looked at reflects up to 140\u00a0% of the light "
-                             "(Lambert: 191\u00a0%)");
+                             "; diffuse and lobe together reflect up to 140\u00a0% of the light "
+                             "(with Lambert 191\u00a0%)");
   EXPECT_EQ(below.unless,
             "you accept up to 220\u00a0% of reflected light: then Disney's diffuse, ΔE ≤ 1")
       << "the nearest of them, and what it gains";
@@ -210,14 +210,15 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   join(all, facts(timed({"ggx/smith_ggx.correlated/schlick", "gtr/smith_gtr.correlated/schlick"})));
   const auto row = of(decisions(all), "Distribution");
   EXPECT_EQ(row.error,
-            fmt::format("typically ×/÷ {:.3g} off measured materials (the median of their "
-                        "published fits; by the exponents published with them 17 of 20 have a "
+            fmt::format("typically ×/÷ {:.3g} off measured materials, by the median of their "
+                        "published fits (the exponents published with them give 17 of 20 a "
                         "longer tail)",
                         std::exp(0.395)));  // between the tenth and the eleventh
-  EXPECT_EQ(row.unless, fmt::format("you fit gamma, too (median 1.5 of those determined): then GTR "
-                                    "with its own Smith, typically "
-                                    "×/÷ {:.3g}, +0.10 ns",
-                                    std::exp(0.1475)))
+  EXPECT_EQ(row.unless,
+            fmt::format("you fit gamma, too (median 1.5 where the fit determines it): then GTR "
+                        "with its own Smith, typically "
+                        "×/÷ {:.3g}, +0.10 ns",
+                        std::exp(0.1475)))
       << "the error and the time of one model";
   EXPECT_FALSE(facts(CrossFitRows{}).tails);
 }
