@@ -288,6 +288,8 @@ FitResult fit_and_judge(const Table& t,
   if (beside) d.residuals.chi2_per_freedom = beside->chi2_per_freedom;
   d.uncertainty = t.errors.empty() ? "none" : "stated";
   d.misfit = lack.misfit;
+  // Judged on a sample; of all values no more is left than the fit leaves.
+  if (d.misfit.told) d.misfit.size = std::fmin(d.misfit.size, d.residuals.log_rms);
   if (lack.outliers && !lack.outliers->retro) d.misfit.outliers = lack.outliers->values;
   d.physics = check_physics(f.model, table, found.scanned);
   watch.lap("physics_ms");

@@ -64,14 +64,16 @@ double noise_square_of_nearest(const Left& left) {
   return pairs > 0 ? squares / pairs : std::nan("");
 }
 /// That of the noise by the median of what neighbours differ by, which no highlight between them moves, or at most what is left of
-/// the nearest values of a list differs by; or NaN.
-double noise_square(const Left& left) {
+/// the nearest values of a list differs by, or what the table's own values show without a model; or NaN.
+double noise_square(const Left& left, TableFacts& facts) {
   std::vector<double> sizes;
   for (const auto& v : left.values)
     if (!std::isnan(v.noise)) sizes.push_back(std::abs(v.noise));
   const double of_lines =
       2 * sizes.size() > left.values.size() ? std::pow(1.4826 * median(sizes), 2) : std::nan("");
-  return left.turned ? std::fmin(of_lines, noise_square_of_nearest(left)) : of_lines;
+  const double of_list = left.turned ? noise_square_of_nearest(left) : std::nan("");
+  const auto& of_table = facts.noise().sigma;
+  return std::fmin(std::fmin(of_lines, of_list), of_table ? square(*of_table) : std::nan(""));
 }
 
 /// The table without what the model has within a channel's noise, of which the lower half is lost.
@@ -420,7 +422,7 @@ LackOfFit lack_of_all(
   m.tested = true;
   // What the noise does not explain, as far as it is known; else what the functions and the scales
   // do.
-  const double all = mean_square(left), noise = noise_square(left);
+  const double all = mean_square(left), noise = noise_square(left, facts);
   const double seen = m.size > 0 ? m.size * m.size : 0;
   const double beyond =
       std::isnan(noise) ? seen + std::max(0.0, all - within) : std::max(seen, all - noise);
