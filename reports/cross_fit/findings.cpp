@@ -140,9 +140,10 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
   for (const auto form : {form_id::direct_k, form_id::schlick}) {
     const auto f0 = over_all(all, form, false), whole = over_all(all, form, true);
     if (!f0) continue;
-    to.say(fmt::format(
-        "F0 of glass (IOR 1.5), fitted with {}, is off {}, depending on metric and directions.",
-        with(form), span(f0->first, f0->second, signed_percent)));
+    to.say(
+        fmt::format("F0 of glass (IOR 1.5), fitted with {}, is off {} where the fit bounds it, "
+                    "depending on metric and directions.",
+                    with(form), span(f0->first, f0->second, signed_percent)));
     if (to.headline.empty()) to.headline = to.sentences.back();
     if (whole)
       to.say(fmt::format(
@@ -181,7 +182,7 @@ void gamma_of_both(Findings& to, const CrossFitRows& r) {
 /// Words for where a material looks rougher than it is, or smoother.
 std::string looks(const Shift& s) {
   return fmt::format("{} by up to {} ({} at roughness {:g})", s.by > 0 ? "rougher" : "smoother",
-                     rounded_up(std::abs(s.by)), s.in->material, s.in->roughness);
+                     fmt::format("{:.2g}", std::abs(s.by)), s.in->material, s.in->roughness);
 }
 
 void lost_energy(Findings& to, const CrossFitRows& r) {

@@ -35,9 +35,8 @@ Table crossings(const std::vector<std::pair<Cell, const std::vector<Crossing>*>>
   }
   const auto range = [&](const Crossing::Range& r) {
     if (r.to < most)
-      return fmt::format("{}{:.2f}", r.from > least ? fmt::format("{:.2f}–", r.from) : "up to ",
-                         r.to);
-    return r.from > least ? fmt::format("{:.2f}", r.from) : "≤\u202f" + plain(least);
+      return (r.from > least ? first_text(r.from) + "–" : "up to ") + last_text(r.to);
+    return r.from > least ? first_text(r.from) : "≤\u202f" + plain(least);
   };
   for (const auto& [name, list] : rows) {
     auto& row = t.rows.emplace_back(std::vector{name});

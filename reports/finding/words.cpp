@@ -53,11 +53,15 @@ std::string at_angle(double mu) {
          : mu == 1 ? "at normal incidence"
                    : fmt::format("at cosine {:g}", mu);
 }
+std::string first_text(double from) {
+  return fmt::format("{:.2f}", std::ceil(100 * from - 1e-9) / 100);
+}
+std::string last_text(double to) {
+  return fmt::format("{:.2f}", std::floor(100 * to + 1e-9) / 100);
+}
 std::string range_text(double from, double to, const std::string& word) {
-  // Inwards: what is said of the range holds at its printed ends.
-  const double first = std::ceil(100 * from - 1e-9) / 100, last = std::floor(100 * to + 1e-9) / 100;
-  if (to >= 1) return fmt::format("from {}{:.2f} on", word, first);
-  return fmt::format("from {}{:.2f} to {:.2f}", word, first, last);
+  if (to >= 1) return fmt::format("from {}{} on", word, first_text(from));
+  return fmt::format("from {}{} to {}", word, first_text(from), last_text(to));
 }
 
 std::string list_text(const std::vector<std::string>& all, std::string_view last) {

@@ -32,6 +32,9 @@ std::string of_all(std::size_t n, std::size_t all);
 std::string place(double roughness, double mu);
 /// "at normal incidence", "at cosine 0.5", of mu 0 "on average"
 std::string at_angle(double mu);
+/// Ends of a range within [0, 1], rounded inwards: what is said of it holds at its printed ends.
+std::string first_text(double from);
+std::string last_text(double to);
 /// "from 0.42 on", "from 0.57 to 0.80": a range within [0, 1].  \param word  before the first number
 std::string range_text(double from, double to, const std::string& word = {});
 /// "a", "a and b", "a, b and c".  \param last  what stands before the last

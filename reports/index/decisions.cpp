@@ -38,11 +38,14 @@ const Candidate* find(const Candidates& all, std::string_view form) {
   const auto at = std::ranges::find(all, form, &Candidate::form);
   return at == all.end() ? nullptr : &*at;
 }
-/// The nearest of those that are clearly cheaper than what is taken; the first of those that are as near.
+/// The nearest of those that save a part of what is taken that is worth an error; the first of those that are as near.
 const Candidate* nearest_cheaper(const Candidates& all, const Candidate& taken) {
+  constexpr double worth = 0.1;
   const Candidate* best = nullptr;
   for (const auto& c : all)
-    if (is_clearly_cheaper(c, taken) && (!best || c.error < 0.99 * best->error)) best = &c;
+    if (is_clearly_cheaper(c, taken) && more(c, taken).ns > worth * taken.ns &&
+        (!best || c.error < 0.99 * best->error))
+      best = &c;
   return best;
 }
 
@@ -297,16 +300,21 @@ std::optional<double> seen_from(const Facts::Scattering& s) {
 /// gains is not seen.
 struct Compensated {
   double from;
-  double error;  ///< greatest ΔE2000 of both parts
+  double below,
+      error;  ///< greatest ΔE2000 of one bounce below it, and of the compensation from it on
+  double both() const { return std::max(below, error); }
 };
 std::optional<Compensated> compensated(const Facts::Scattering& way,
                                        const Facts::Scattering& nothing) {
   const auto nearer = nearer_from(way, nothing), seen = seen_from(nothing);
   if (!nearer || !seen) return {};
-  Compensated c{std::max(*nearer, *seen), 0};
+  Compensated c{std::max(*nearer, *seen), 0, 0};
   for (std::size_t i = 0; i < way.roughness.size(); ++i)
-    c.error = std::max(c.error, (way.roughness[i] < c.from ? nothing : way).delta_e[i]);
-  if (std::ranges::max(nothing.delta_e) - c.error < just_seen) return {};
+    if (way.roughness[i] < c.from)
+      c.below = std::max(c.below, nothing.delta_e[i]);
+    else
+      c.error = std::max(c.error, way.delta_e[i]);
+  if (std::ranges::max(nothing.delta_e) - c.both() < just_seen) return {};
   return c;
 }
 
@@ -320,11 +328,8 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
     if (const auto* way = scattering_of(f, c.id, bright, of_image_light);
         way && c.of_image_light == of_image_light)
       if (const auto pays = compensated(*way, *nothing))
-        all.push_back({c.id, pays->error, c.ns, c.spread});
+        all.push_back({c.id, pays->both(), c.ns, c.spread});
   const auto* taken = choose(all, single, side_by_side);
-  const auto from = [&](const Candidate& c) {
-    return compensated(*scattering_of(f, c.form, bright, of_image_light), *nothing)->from;
-  };
   const auto* other = nearest_cheaper(all, *taken);
   auto unless = fmt::format("F0 is {:g}: then one bounce, {}", plastic,
                             delta_at_most(std::ranges::max(of_plastic->delta_e)));
@@ -343,8 +348,12 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
              std::move(unless)};
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
-    d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), from(*taken));
-    d.error += fmt::format(" ({}one bounce: {})",
+    const auto pays =
+        *compensated(*scattering_of(f, taken->form, bright, of_image_light), *nothing);
+    d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), pays.from);
+    d.error = delta_at_most(pays.error);
+    if (pays.below > pays.error) d.error += fmt::format(", below it {}", at_most(pays.below));
+    d.error += fmt::format(" ({}one bounce at all roughnesses: {})",
                            taken->error > side_by_side ? "no single form leaves less; " : "",
                            at_most(without));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",

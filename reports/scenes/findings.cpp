@@ -91,7 +91,7 @@ void savings(Findings& to, const ScenesRows& r) {
         fmt::format("The plan is slower than all effects of the material for {}: it takes {}{} "
                     "times as long.",
                     scenes_text(these), these.size() == 1 ? "" : "up to ",
-                    times_text(1 / slowest->speedup_float)));
+                    rounded_up(1 / slowest->speedup_float)));
     to.say(by_table ? "Only the tabulated light between facets keeps the tolerance there."
                     : "No faster set of forms keeps the tolerance there with a plan's margin.");
   }

@@ -205,8 +205,8 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
       if (const double cut = *std::ranges::min_element(c.delta_e); cut > 0.5)
         to.say(
             fmt::format("The colour of {} lies beyond sRGB: cut to it, F0 by itself changes it by "
-                        "ΔE2000 {:.2g} or more, seen head on.",
-                        c.material, cut));
+                        "ΔE2000 {} or more, seen head on.",
+                        c.material, rounded_down(cut)));
   double most = 0;
   for (const auto& a : r.rough.albedos)
     if (a.form == form_id::schlick && a.material == "IOR 1.5")

@@ -131,8 +131,8 @@ void without_a_value(Findings& to, const StabilityRows& r) {
     const auto proved = static_cast<std::size_t>(std::ranges::count_if(
         all, [](const StabilityRow* row) { return row->finite_from.has_value(); }));
     to.say(
-        fmt::format("In {}, {} ways to compute {} formulas were found to have inputs without a "
-                    "value. From some alpha, F0 or index on, a value is proved for every input of "
+        fmt::format("In {}, {} ways to compute {} formulas give no value, or infinity, for some "
+                    "inputs. From some alpha, F0 or index on, a value is proved for every input of "
                     "{}.",
                     number, of_all(fails, all.size()), formulas.size(), number_or_none(proved)));
   }
