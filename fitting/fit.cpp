@@ -252,8 +252,33 @@ FitResult fit_and_judge(const Table& t,
   watch.lap("errors_ms");
   const bool shared =
       judged.clusters > 0 && (o.intervals == Intervals::by_angle || enough_angles(judged.clusters));
+  const auto attempt = [&](const Table& as, const FitOptions& with, const std::string& spec) {
+    try {
+      const FitOptions other = options_for(with, spec);
+      const Problem q = pose(as, other);
+      const Sampling s = sampling_for(q, as, bins);
+      const auto coarse = coarse_fit(q, s);
+      return coarse ? residual_statistics(coarse->model, s, coarse_samples).log_rms : std::nan("");
+    } catch (const Error&) {  // not of this table
+      return std::nan("");
+    }
+  };
+  const auto unit_of = [&](double here) {
+    const auto as_given = [&](const Table& as, const FitOptions& with) {
+      return attempt(as, with, with.model);
+    };
+    return other_unit(t, o, here, as_given);
+  };
   TableFacts& table = columns.facts(t);
   LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, table);
+  // What scales of single angles take up is another unit's where one takes up more: then these are
+  // no instrument's.
+  if (!lack.misfit.told && !lack.gains.empty() && unit_of(attempt(t, o, o.model))) {
+    FitOptions independent = o;
+    independent.intervals = Intervals::independent;
+    const Problem without{independent, p.start, p.free, p.bounds, p.narrowed, p.offset, p.rounding};
+    lack = lack_of_fit(sampling, without, f, a.counts.samples, table);
+  }
   find_dark_bias(lack, sampling, p, f, u, table);
   if (lack.misfit.told) lack.moved_by_scale = moved_by_scale(t, p, f, a.residuals.log_rms);
   widen(u, lack, judged.seen_against);
@@ -341,26 +366,12 @@ FitResult fit_and_judge(const Table& t,
   facts = with_table(std::move(facts), o, table, d);
   for (auto& w : warnings(o, t, d, facts)) d.warnings.push_back(std::move(w));
   if (tries) announce("trying other models");
-  const auto attempt = [&](const Table& as, const FitOptions& with, const std::string& spec) {
-    if (!tries) return std::nan("");
-    try {
-      const FitOptions other = options_for(with, spec);
-      const Problem q = pose(as, other);
-      const Sampling s = sampling_for(q, as, bins);
-      const auto coarse = coarse_fit(q, s);
-      return coarse ? residual_statistics(coarse->model, s, coarse_samples).log_rms : std::nan("");
-    } catch (const Error&) {  // not of this table
-      return std::nan("");
-    }
-  };
   bool knows_unit = false;
   d.next = next_steps(
-      o, d, facts, [&](const std::string& spec) { return attempt(t, o, spec); },
+      o, d, facts,
+      [&](const std::string& spec) { return tries ? attempt(t, o, spec) : std::nan(""); },
       [&](double left) {
-        const auto as_given = [&](const Table& as, const FitOptions& with) {
-          return attempt(as, with, with.model);
-        };
-        auto unit = tries ? other_unit(t, o, left, as_given) : std::nullopt;
+        auto unit = tries ? unit_of(left) : std::nullopt;
         knows_unit = unit.has_value();
         return unit;
       });

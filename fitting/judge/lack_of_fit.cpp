@@ -76,9 +76,11 @@ double noise_square(const Left& left, TableFacts& facts) {
   return std::fmin(std::fmin(of_lines, of_list), of_table ? square(*of_table) : std::nan(""));
 }
 
-/// The table without what the model has within a channel's noise, of which the lower half is lost.
+/// The table without what the model has within a channel's noise, of which the lower half is lost; but what the table has far above
+/// it no noise has lost, whatever the model.
 Table without_lost(const Table& t, const BoundModel& b, const std::vector<double>& lost_below) {
   constexpr double noises = 8;  // beyond which logarithms are hardly lowered
+  constexpr double far = 1.5;   // times that, which takes no noise
   Table bright = t;
   const SampleAngles at(t, t.bins());
   constexpr std::size_t block = 4096;
@@ -90,7 +92,9 @@ Table without_lost(const Table& t, const BoundModel& b, const std::vector<double
     const auto f = evaluate(b, angles);
     for (std::size_t c = 0; c < f.size(); ++c)
       for (std::size_t i = first; i < last; ++i)
-        if (!(f[c][i - first] > noises * lost_below[c])) bright.values[c][i] = std::nan("");
+        if (const double most = noises * lost_below[c];
+            !(f[c][i - first] > most || t.values[c][i] > far * most))
+          bright.values[c][i] = std::nan("");
   }
   return bright;
 }
@@ -451,12 +455,19 @@ LackOfFit lack_of_fit(
   const Table bright = without_lost(s.table(), f.model, lost);
   const Sampling sampling = sampling_for(p, bright, bright.bins());
   const auto data = fit_data<double>(sampling, scan_samples);
-  constexpr std::size_t few_values = 24;
+  constexpr std::size_t few_values = 24, fewest = 8;
+  constexpr double far_off = 0.7;  // of ln f: more than noise does to any of them
   LackOfFit found;
   if (data.counts.used < few_values + p.free.size()) {
-    found.misfit.too_few = true;
-    found.misfit.note = "the values above noise are too few to tell";
     found.moved_by_noise = p.free.of(f.model.values);  // which may be noise
+    Misfit& m = found.misfit;
+    const double left = residual_statistics(f.model, sampling, scan_samples).log_rms;
+    m.tested = m.told = data.counts.used >= fewest + p.free.size() && left > far_off;
+    m.too_few = !m.told;
+    if (m.told)
+      m.size = left, m.p = 0;
+    else
+      m.note = "the values above noise are too few to tell";
     return found;
   }
   const Fitted beside = minimise(p, data, f.model, no_huber);

@@ -379,10 +379,11 @@ bool find_undetermined(const Problem& p,
       const double lost = q.count > 1 ? lost_below[s - q.first] : std::ranges::min(lost_below);
       if (!(lost > 0)) continue;
       const std::size_t i = p.free.index(s);
-      const double high = u[i].high_end(f.model.values[s]);
+      const bool is_limit = is(u[i], ParameterStatus::upper_limit);
+      const double high = is_limit ? u[i].limit : u[i].high_end(f.model.values[s]);
       const bool at_low =
           is(u[i], ParameterStatus::at_bound) && f.model.values[s] < p.bounds.high[i];
-      if (!is(u[i], ParameterStatus::free) && !at_low) continue;
+      if (!is(u[i], ParameterStatus::free) && !is_limit && !at_low) continue;
       u[i].keep_limit(
           ParameterStatus::upper_limit,
           std::min((std::isnan(high) ? 0 : high) + std::numbers::pi * lost, p.bounds.high[i]),

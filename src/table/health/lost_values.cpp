@@ -133,6 +133,40 @@ bool is_base(const SharedEnd& e) {
   return 4 * e.sharers > 3 * e.values;
 }
 
+/// True where values of about a size have so little noise that no noise of that size was clipped.
+bool are_exact_near(TableFacts& facts, std::size_t channel, double size) {
+  const Values& plane = facts.table().values[channel];
+  std::vector<double> near;
+  for (const auto& d : facts.noise_samples().all)
+    if (d.channel == channel && plane[d.sample] > size / 4 && plane[d.sample] < 4 * size)
+      near.push_back(std::abs(d.more));
+  constexpr std::size_t few = 8;
+  constexpr double exact = 0.1;
+  return near.size() >= few && median(near) < exact;
+}
+
+/// Noise that took values of a channel down to its least one, at which it was clipped: what stands beside these typically is.  0 where
+/// they stand between values that are alike or exact: then they are marks of what is missing.
+double noise_beside(TableFacts& facts, std::size_t channel, double least) {
+  constexpr double of_half = 1.4826;  // the standard deviation of noise, of its typical size
+  constexpr double smooth = 0.35;
+  const Table& t = facts.table();
+  const Values& plane = t.values[channel];
+  const SampleAngles at(t);
+  const std::size_t step = t.size() / 60'000 + 1;
+  std::vector<double> beside, apart;  // apart: how far its neighbours are from each other
+  for (std::size_t i = 0; i < t.size(); i += step) {
+    if (!(plane[i] >= 0 && plane[i] <= least) || mask(at(i), plane[i]) != Mask::valid) continue;
+    for (const std::size_t k : {i - 1, i + 1})
+      if (k < t.size() && plane[k] > least) beside.push_back(plane[k]);
+    if (i > 0 && i + 1 < t.size() && plane[i - 1] > least && plane[i + 1] > least)
+      apart.push_back(std::abs(std::log(plane[i - 1] / plane[i + 1])));
+  }
+  if (beside.empty() || (!apart.empty() && median(apart) < smooth)) return 0;
+  const double size = of_half * median(beside);
+  return are_exact_near(facts, channel, size) ? 0 : size;
+}
+
 /// The least value, where that many share it and noise goes on above.
 std::optional<SharedEnd> clipped_end(TableFacts& facts) {
   const Table& t = facts.table();
@@ -143,7 +177,11 @@ std::optional<SharedEnd> clipped_end(TableFacts& facts) {
         above.push_back(std::abs(d.more));
     constexpr std::size_t few = 8;
     constexpr double noisy = 0.1;
-    if (above.size() >= few && median(above) > noisy && !is_base(e)) return std::move(e);
+    if (is_base(e)) continue;
+    if (above.size() >= few && median(above) > noisy) return std::move(e);
+    const auto channel = static_cast<std::size_t>(
+        std::ranges::find(t.channels, e.channels.front()) - t.channels.begin());
+    if (noise_beside(facts, channel, e.value) > 10 * e.value) return std::move(e);
   }
   return {};
 }
@@ -227,37 +265,29 @@ bool is_clipped(TableFacts& facts) {
 
 std::vector<double> lost_below(TableFacts& facts) {
   const Table& t = facts.table();
-  constexpr double many = 0.02;       // of the values
-  constexpr double of_half = 1.4826;  // the standard deviation of noise, of its typical size
+  constexpr double many = 0.02;  // of the values
   const SampleAngles at(t);
   const double rounding = rounding_of(t).absolute, floor = facts.noise_floor();
   const std::size_t step = t.size() / 60'000 + 1;
-  const auto below = [&](const Values& plane) -> double {
+  const auto end = clipped_end(facts);
+  const auto below = [&](std::size_t c) -> double {
+    const Values& plane = t.values[c];
     if (std::ranges::none_of(plane, [](double v) { return v > 0; })) return 0;
     if (floor > 0) return std::ranges::any_of(plane, [](double v) { return v < 0; }) ? floor : 0;
-    std::size_t zeros = 0, coarse = 0, values = 0;
-    std::vector<double> beside, apart;  // apart: how far its neighbours are from each other
+    const double least = end && std::ranges::count(end->channels, t.channels[c]) ? end->value : 0;
+    std::size_t lost = 0, coarse = 0, values = 0;
     for (std::size_t i = 0; i < t.size(); i += step) {
       values += plane[i] >= 0;
       coarse += plane[i] > 0 && plane[i] < digits_of_one * rounding;
-      if (plane[i] != 0 || mask(at(i), 0) != Mask::valid) continue;
-      ++zeros;
-      for (const std::size_t k : {i - 1, i + 1})
-        if (k < t.size() && plane[k] > 0) beside.push_back(plane[k]);
-      if (i > 0 && i + 1 < t.size() && plane[i - 1] > 0 && plane[i + 1] > 0)
-        apart.push_back(std::abs(std::log(plane[i - 1] / plane[i + 1])));
+      lost += plane[i] >= 0 && plane[i] <= least && mask(at(i), plane[i]) == Mask::valid;
     }
-    if (rounding > 0 && is_coarse(zeros, coarse, values)) return std::sqrt(12) * rounding / 2;
-    if (!(static_cast<double>(zeros) > many * static_cast<double>(values)) || beside.empty())
-      return 0;
-    // Noise that takes values to 0 moves their neighbours, too: between smooth ones 0 is a mark of
-    // what is missing.
-    constexpr double smooth = 0.35;
-    if (!apart.empty() && median(apart) < smooth) return 0;
-    return of_half * median(beside);
+    if (rounding > 0 && is_coarse(lost, coarse, values)) return std::sqrt(12) * rounding / 2;
+    return static_cast<double>(lost) > many * static_cast<double>(values)
+               ? noise_beside(facts, c, least)
+               : 0;
   };
   std::vector<double> lost;
-  for (const auto& plane : t.values) lost.push_back(below(plane));
+  for (std::size_t c = 0; c < t.values.size(); ++c) lost.push_back(below(c));
   return lost;
 }
 

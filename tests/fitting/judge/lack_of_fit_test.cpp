@@ -632,57 +632,6 @@ TEST(LackOfFit, OfAModelOfWhichNothingIsFreeIsTold) {
   EXPECT_NEAR(m.size, 0.4, 0.1);
 }
 
-TEST(LackOfFit, MakesTheDiffuseTermsIntervalHoldWhatDarkNoiseTakesFromItsLogarithms) {
-  const auto truth = test::bind(paint, "alpha=0.15,f0=0.04,kd=0.03", 1);
-  unsigned inside = 0, told = 0;
-  constexpr unsigned seeds = 8;
-  for (unsigned seed = 1; seed <= seeds; ++seed) {
-    Table t = synthesize(truth, {.layout = Layout::random, .samples = 1});
-    test::put_on_goniometer(t, truth);
-    t.truth.reset();  // as if measured
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    for (double& f : t.values[0]) f += 0.0025 * normal(random);
-    FitOptions o;
-    o.model = paint;
-    const auto d = fit(t, o).document;
-    const auto& of = test::parameter(d, "kd");
-    inside += of.ci95_low[0] <= 0.03 && 0.03 <= of.ci95_high[0];
-    told += std::ranges::any_of(d.warnings, [](const auto& w) {
-      return w.starts_with("noise lowers the logarithms of the darkest values");
-    });
-  }
-  EXPECT_GE(inside, seeds - 1);
-  EXPECT_GE(told, seeds / 2);
-}
-
-TEST(LackOfFit, AccusesNoRightModelBesideNoiseThatWasClipped) {
-  // Zeros are left out of logarithms: what is left of the dark values is lifted.
-  const auto truth = test::bind(paint, "alpha=0.2,f0=0.05,kd=0.004", 1);
-  for (unsigned seed = 1; seed <= 3; ++seed) {
-    Table t;
-    t.format = "csv";
-    t.channels = {"f"};
-    test::put_on_goniometer(t, truth);
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    for (double& f : t.values[0])
-      f = std::max(f * std::exp(0.02 * normal(random)) + 0.003 * normal(random), 0.0);
-    FitOptions o;
-    o.model = paint;
-    const auto d = fit(t, o).document;
-    EXPECT_FALSE(d.misfit.told) << seed << " " << d.misfit.size;
-    const auto& matte = test::parameter(d, "kd");
-    EXPECT_EQ(matte.status[0], ParameterStatus::upper_limit) << seed;
-    EXPECT_GT(matte.limit[0], 0.004) << seed;
-    const auto& alpha = test::parameter(d, "alpha");
-    EXPECT_LE(alpha.ci95_low[0], 0.2) << seed;
-    EXPECT_GE(alpha.ci95_high[0], 0.2) << seed;
-    for (const auto& w : d.warnings)
-      EXPECT_EQ(w.find("noise lowers"), w.npos) << "what is clipped lifts them";
-  }
-}
-
 TEST(LackOfFit, TellsNoiseThatGrowsTowardsGrazingFromAWrongModel) {
   const auto settings = "alpha=0.2,f0=0.05,kd=0.1";
   const auto told = [&](const BoundModel& truth, unsigned seed) {
@@ -715,35 +664,6 @@ TEST(LackOfFit, TellsNoiseThatGrowsTowardsGrazingFromAWrongModel) {
   }
   EXPECT_EQ(accused, 0U);
   EXPECT_EQ(missed, 0U);
-}
-
-TEST(LackOfFit, LimitsTheDiffuseTermOfOnlyTheChannelThatNoiseCovers) {
-  const auto truth = test::bind(paint, "alpha=0.2,f0=0.05,kd=0.004", 1);
-  Table t;
-  t.format = "csv";
-  t.channels = {"f"};
-  test::put_on_goniometer(t, truth);
-  t.channels = {"r", "g", "b"};
-  t.values.resize(3, t.values[0]);
-  std::mt19937_64 random(1);
-  std::normal_distribution<double> normal;
-  for (auto& plane : t.values)
-    for (double& f : plane) f *= std::exp(0.01 * normal(random));
-  for (double& f : t.values[2]) f += 0.003 * normal(random);
-  FitOptions o;
-  o.model = paint;
-  const auto d = fit(t, o).document;
-  const auto& matte = test::parameter(d, "kd");
-  for (const std::size_t c : {0, 1}) {
-    EXPECT_EQ(matte.status[c], ParameterStatus::free) << c;
-    EXPECT_LE(matte.ci95_low[c], 0.004) << c;
-    EXPECT_GE(matte.ci95_high[c], 0.004) << c;
-  }
-  EXPECT_EQ(matte.status[2], ParameterStatus::upper_limit);
-  EXPECT_GT(matte.limit[2], 0.004);
-  EXPECT_TRUE(std::ranges::any_of(d.warnings, [](const auto& w) {
-    return w.starts_with("negative values of channel b betray a noise floor");
-  }));
 }
 
 }  // namespace

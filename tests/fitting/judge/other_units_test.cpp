@@ -2,7 +2,9 @@
 #include "fitting/judge/other_units.h"
 
 #include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <random>
 
 #include "fitting/fit.h"
 #include "fitting/support.h"
@@ -44,6 +46,36 @@ TEST(OtherUnit, OfRadianceFactorsIsThatThoughOthersDoAsWell) {
   const auto d = fit_of_scaled("lambert", "kd=0.4", std::numbers::pi);
   ASSERT_FALSE(d.next.empty());
   EXPECT_TRUE(d.next[0].starts_with("values may be radiance factors:")) << d.next[0];
+}
+
+TEST(OtherUnit, OfATableIsToldThoughAScaleOfEachAzimuthTakesMuchOfItUp) {
+  const char* const paint = "lambert+ggx/smith_ggx.correlated/schlick";
+  for (const double scale : {1.0, std::numbers::pi})
+    for (unsigned seed = 1; seed <= 6; ++seed) {
+      Table t;
+      t.format = "csv";
+      t.channels = {"f"};
+      DirectionList l;
+      for (int in = 10; in <= 80; in += 10)
+        for (int out = 0; out <= 80; out += 10)
+          for (int phi = 0; phi <= (out > 0 ? 180 : 0); phi += 15) {
+            l.theta_i_deg.push_back(in), l.phi_i_deg.push_back(0);
+            l.theta_o_deg.push_back(out), l.phi_o_deg.push_back(phi);
+          }
+      t.where = std::move(l);
+      test::put_values(t, test::bind(paint, "alpha=0.4,f0=0.04,kd=0.05", 1));
+      std::mt19937_64 random(seed);
+      std::normal_distribution<double> normal;
+      for (double& f : t.values[0]) f *= scale * std::exp(0.01 * normal(random));
+      FitOptions o;
+      o.model = paint;
+      o.certificate = Certify::automatic;
+      const auto d = fit(t, o).document;
+      EXPECT_EQ(d.misfit.told, scale > 1) << seed;
+      EXPECT_EQ(!d.next.empty() && d.next[0].starts_with("values may be radiance factors:"),
+                scale > 1)
+          << seed;
+    }
 }
 
 TEST(OtherUnit, OfAModelWithoutWeightsIsNoneWhereAnotherScaleMendsMore) {
