@@ -133,12 +133,12 @@ bool is_base(const SharedEnd& e) {
   return 4 * e.sharers > 3 * e.values;
 }
 
-/// True where values of about a size have so little noise that no noise of that size was clipped.
-bool are_exact_near(TableFacts& facts, std::size_t channel, double size) {
+/// True where values up to about a size have so little noise that none of that size was clipped: it would be in all of them.
+bool are_exact_up_to(TableFacts& facts, std::size_t channel, double size) {
   const Values& plane = facts.table().values[channel];
   std::vector<double> near;
   for (const auto& d : facts.noise_samples().all)
-    if (d.channel == channel && plane[d.sample] > size / 4 && plane[d.sample] < 4 * size)
+    if (d.channel == channel && plane[d.sample] < 4 * size)
       near.push_back(std::abs(d.more));
   constexpr std::size_t few = 8;
   constexpr double exact = 0.1;
@@ -164,7 +164,7 @@ double noise_beside(TableFacts& facts, std::size_t channel, double least) {
   }
   if (beside.empty() || (!apart.empty() && median(apart) < smooth)) return 0;
   const double size = of_half * median(beside);
-  return are_exact_near(facts, channel, size) ? 0 : size;
+  return are_exact_up_to(facts, channel, size) ? 0 : size;
 }
 
 /// The least value, where that many share it and noise goes on above.

@@ -51,7 +51,7 @@ TEST(OtherUnit, OfRadianceFactorsIsThatThoughOthersDoAsWell) {
 TEST(OtherUnit, OfATableIsToldThoughAScaleOfEachAzimuthTakesMuchOfItUp) {
   const char* const paint = "lambert+ggx/smith_ggx.correlated/schlick";
   for (const double scale : {1.0, std::numbers::pi})
-    for (unsigned seed = 1; seed <= 6; ++seed) {
+    for (const unsigned seed : {1U, 2U, 9U}) {
       Table t;
       t.format = "csv";
       t.channels = {"f"};
