@@ -95,6 +95,14 @@ void check_settings(const FitOptions& o, std::span<const std::string> models) {
   for (const auto& name : o.grey) check(name);
 }
 
+/// True of a model that its fit tells to miss the table, where another is nearer of which that is not told: however little held-out
+/// angles tell them apart.
+bool is_refuted(const ModelRow& r, const std::vector<ModelRow>& all) {
+  return r.misses && std::ranges::any_of(all, [&](const ModelRow& other) {
+           return other.compared && !other.misses && other.log_rms < r.log_rms;
+         });
+}
+
 template <class Of>
 const ModelRow* least(const std::vector<ModelRow>& rows, Of of) {
   const ModelRow* best = nullptr;
@@ -263,7 +271,7 @@ Advice advise(const ModelChoice& choice) {
   const bool any_converged = std::ranges::any_of(choice.rows, &ModelRow::converged);
   std::vector<ModelRow> rows;
   for (const auto& r : choice.rows)
-    if (r.converged || !any_converged) rows.push_back(r);
+    if ((r.converged || !any_converged) && !is_refuted(r, choice.rows)) rows.push_back(r);
   const auto cv = [](const ModelRow& r) { return r.cv_log_rms; };
   const auto bic = [](const ModelRow& r) { return r.bic; };
   const ModelRow* best = least(rows, cv);

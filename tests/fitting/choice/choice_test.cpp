@@ -209,6 +209,25 @@ ModelRow row(const char* model, std::size_t parameters, double cv, double behind
   return r;
 }
 
+TEST(Advice, TakesNoModelThatIsToldToMissWhereANearerOneIsNot) {
+  ModelChoice c;
+  c.blocks = 3;
+  c.effective_values = 3;  // few angles tell no two models apart
+  c.rows = {row("simple", 3, 0.19, 0.5, -9), row("right", 7, 0.15, 0, -11),
+            row("far", 1, 0.3, 1.5, -8)};
+  c.rows[1].log_rms = 0.03;
+  EXPECT_EQ(advise(c).recommended, "far") << "the fewest parameters of those as good";
+  c.rows[0].misses = c.rows[2].misses = true;
+  EXPECT_EQ(advise(c).recommended, "right");
+  EXPECT_TRUE(advise(c).as_good.empty());
+  c.rows[1].misses = true;
+  EXPECT_TRUE(advise(c).none_fits);
+  EXPECT_EQ(advise(c).recommended, "far");
+  // Not told of a model that is too far off to be told: it refutes no nearer one.
+  c.rows[1].misses = true, c.rows[2].misses = false;
+  EXPECT_NE(advise(c).as_good, std::vector<std::string>{});
+}
+
 TEST(ModelChoice, SaysFromWhichOffsetItsLogRmsCounts) {
   Table t = table_of(paint, {"alpha=0.3", "f0=0.04", "kd=0.2"}, 1);
   EXPECT_EQ(floor_in_words(compare_models(t, {}, std::array{paint})), "");
