@@ -32,6 +32,8 @@ struct Values3 {
   /// Where they are asked for: what f may as well be between samples that far apart (their geometric mean on the flank of a
   /// highlight), and what every other sample would make of it.
   std::vector<double> otherwise, coarse;
+  std::vector<double> apart;  ///< by which one half of the samples makes it more than the other
+                              ///< does; 0 where nobody says
 };
 using Between = std::function<void(const DirectionPair&, bool all, Values3&)>;
 
@@ -40,9 +42,10 @@ using Between = std::function<void(const DirectionPair&, bool all, Values3&)>;
 ///
 ///   ∫ f cos θ_o dω_o = ∫ dψ ∫₀^end dθ_h 4 VoH f NoL sin θ_h,   θ_h = end x³
 ///
-/// The error is the sum of five: what two rules of every other node differ by; what it changes, at every fourth node, to
+/// The error is the sum of six: what two rules of every other node differ by; what it changes, at every fourth node, to
 /// interpolate logarithms, since between samples on the flank of a highlight the surface lies between the two; half of what it
-/// changes to leave out every other sample, which makes errors of interpolation four times as large; what lacks, which may be twice
+/// changes to leave out every other sample, which makes errors of interpolation four times as large; half of what two halves of the
+/// samples differ by, which a ridge makes that few of them meet; what lacks, which may be twice
 /// what it is nearest to; and half a thousandth at the horizon, where samples end.
 AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& between) {
   constexpr std::size_t radii = 96, rays = 64;
@@ -50,15 +53,15 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
   const Direction wi = direction(theta_i_deg * degree, 0);
   const double slope = wi.x / wi.z;
   struct Sums {
-    std::array<double, 2> value{}, weight{};          // of every other node
-    double otherwise = 0, coarse = 0, looked_at = 0;  // differences
-    double beside = 0;                                // weight × value nearest to what lacks
+    std::array<double, 2> value{}, weight{};                      // of every other node
+    double otherwise = 0, coarse = 0, halves = 0, looked_at = 0;  // differences
+    double beside = 0;  // weight × value nearest to what lacks
     double lacks = 0, pending = 0,
            last = 0;  // weights; those of a ray before its first value; that value
   };
   std::vector<Sums> sums(channels);
   const std::vector<double> nothing(channels);
-  Values3 here{nothing, nothing, nothing};
+  Values3 here{nothing, nothing, nothing, nothing};
   std::array<double, 2> all_nodes{};
   for (std::size_t j = 0; j < rays; ++j) {
     const double psi = 2 * pi * (static_cast<double>(j) + 0.5) / rays, k = slope * std::cos(psi),
@@ -93,6 +96,7 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
         s.looked_at += weight;
         if (std::isfinite(here.otherwise[c])) s.otherwise += weight * (here.otherwise[c] - f);
         if (std::isfinite(here.coarse[c])) s.coarse += weight * (here.coarse[c] - f);
+        if (std::isfinite(here.apart[c])) s.halves += weight * here.apart[c];
       }
     }
   }
@@ -105,8 +109,8 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
     a.coverage = std::min(a.coverage, all / whole);
     if (!(all > whole / 2)) continue;
     const double halves = std::abs(v[0] / w[0] - v[1] / w[1]);
-    const double apart =
-        (std::abs(s.otherwise) + std::abs(s.coarse) / 2) / std::max(s.looked_at, 1e-300);
+    const double apart = (std::abs(s.otherwise) + std::abs(s.coarse) / 2 + std::abs(s.halves) / 2) /
+                         std::max(s.looked_at, 1e-300);
     const double lacks =
         std::max(std::abs(2 * s.beside - mean * s.lacks), mean * s.lacks / 2) / whole;
     constexpr double constant = 1e-6, at_horizon = 5e-4;
@@ -289,6 +293,8 @@ double farthest_from_mirror(const Table& t, const PeakSearch& search) {
   return tiny;
 }
 
+constexpr auto too_far_apart = ": the samples are too far apart for the highlight";
+
 /// A few incident angles in words.
 std::string angles_in_words(const std::set<double>& deg) {
   std::vector<std::string> all;
@@ -339,17 +345,20 @@ TableAlbedo albedo_of_list(const Table& t, const PeakSearch& search) {
                                  f(p, v.f, all ? v.otherwise : std::span<double>());
                                  if (!all) return;
                                  v.coarse = v.f;
-                                 for (const auto& other : of_half) {
-                                   other(p, there, {});
-                                   for (std::size_t c = 0; c < there.size(); ++c)
-                                     if (std::isfinite(there[c]))
-                                       v.coarse[c] += 2 * (there[c] - v.f[c]);
+                                 v.apart.assign(there.size(), 0);
+                                 for (double sign : {-1.0, 1.0}) {
+                                   of_half[sign > 0](p, there, {});
+                                   for (std::size_t c = 0; c < there.size(); ++c) {
+                                     if (!std::isfinite(there[c])) continue;
+                                     v.coarse[c] += 2 * (there[c] - v.f[c]);
+                                     v.apart[c] += sign * (there[c] - v.f[c]);
+                                   }
                                  }
                                });
     a.phi_i_deg = incident.second;
     double most = 0;
     for (const double v : a.albedo) most = std::max(most, v);
-    constexpr double known = 1 / 3.0;  // a peak between samples farther apart cannot be integrated
+    constexpr double known = 0.2;  // a peak between samples farther apart cannot be integrated
     found[k] = {std::move(a), f.from_mirror(), !(a.error > known * most)};
   });
   TableAlbedo all;
@@ -373,7 +382,7 @@ TableAlbedo albedo_of_list(const Table& t, const PeakSearch& search) {
     if (!deg.empty()) all.left_out.push_back(angles_in_words(deg) + ": " + why);
   };
   leave_out(few, "the samples do not cover the hemisphere");
-  leave_out(unsure, "the samples are too far apart for the highlight");
+  if (!unsure.empty()) all.left_out.push_back(angles_in_words(unsure) + too_far_apart);
   leave_out(hidden,
             fmt::format("a highlight narrower than {:.2g}° would not show; without one {:.3g}{}",
                         widest / degree, least,
@@ -477,7 +486,17 @@ TableAlbedo albedo_of_table(const Table& t, double step_deg, const PeakSearch& s
                        return a.spacing == Axis::Spacing::constant;
                      });
   if (slice && !t.between) return {{}, {}, {"an image slice holds no hemisphere"}};
-  return {of_function(t, step_deg), {}, {}};
+  TableAlbedo all{of_function(t, step_deg), {}, {}};
+  std::set<double> unsure;
+  for (auto& a : all.known) {
+    double most = 0;
+    for (const double v : a.albedo) most = std::fmax(most, v);
+    if (!(a.error > most) || most == 0) continue;
+    unsure.insert(a.theta_i_deg);
+    std::ranges::fill(a.albedo, std::nan(""));
+  }
+  if (!unsure.empty()) all.left_out.push_back(angles_in_words(unsure) + too_far_apart);
+  return all;
 }
 
 std::vector<AlbedoSample> albedo_curve(const Table& t, double step_deg) {

@@ -102,6 +102,48 @@ TableAlbedo albedo_with_reasons(const Table& t) {
   return albedo_of_table(t, 15, find_peak(t, t.bins()));
 }
 
+TEST(AlbedoOfATable, OfARidgeThatFewSamplesMeetIsWithinItsErrorOrNone) {
+  std::size_t known = 0;
+  const auto expect = [&](double x, double y, double truth, double step, double tangent) {
+    Table t = rings_of(bind_model("lambert", {}, 1), {0}, step, 0, true);
+    const BoundModel brushed =
+        bind_model("ggx_aniso/smith_ggx_aniso.correlated/schlick",
+                   {{"alpha_x", {x}}, {"alpha_y", {y}}, {"f0", {0.9}}, {"tangent", {tangent}}}, 1);
+    const SampleAngles at(t);
+    std::vector<FrameAngles<double>> frames;
+    for (std::size_t i = 0; i < t.size(); ++i) frames.push_back(at.frame(i));
+    const auto f = evaluate(brushed, frames);
+    t.values[0].assign(f[0].begin(), f[0].end());
+    for (const auto& a : directional_albedo(t)) {
+      EXPECT_NEAR(a.albedo[0], truth, 1.1 * a.error)
+          << x << " " << y << " " << step << " " << tangent;
+      ++known;
+    }
+  };
+  for (const double step : {5.0, 10.0})
+    for (const double tangent : {0.0, 45.0, 90.0}) {  // truths by `gonio albedo`
+      expect(0.3, 0.05, 0.8406, step, tangent);
+      expect(0.5, 0.05, 0.7396, step, tangent);
+      expect(0.3, 0.1, 0.8368, step, tangent);
+      expect(0.5, 0.2, 0.7220, step, tangent);
+    }
+  EXPECT_GE(known, 10U);
+}
+
+TEST(AlbedoOfATable, OfAGridIsNoneWhereItsErrorIsMoreThanItself) {
+  Table t;
+  t.format = "utia";
+  t.channels = {"f"};
+  t.where = utia_directions();
+  test::put_values(
+      t, bind_model("ggx/smith_ggx.correlated/schlick", {{"alpha", {0.01}}, {"f0", {1}}}, 1));
+  interpolate_utia(t);
+  const auto found = albedo_with_reasons(t);
+  for (const auto& a : found.known) EXPECT_FALSE(a.albedo[0] > 1.5) << a.theta_i_deg;
+  ASSERT_EQ(found.left_out.size(), 1U);
+  EXPECT_NE(found.left_out[0].find("too far apart for the highlight"), std::string::npos);
+}
+
 TEST(AlbedoOfATable, IsNoneWhereAHighlightMayHideBetweenTheSamples) {
   const char* const beckmann = "lambert+beckmann/smith_beckmann.correlated/schlick";
   const auto shiny = [&](double alpha) {
