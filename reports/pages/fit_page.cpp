@@ -14,6 +14,7 @@
 #include "brdf/model/model_names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
+#include "reports/pages/drawn_channels.h"
 #include "reports/pages/fields.h"
 #include "reports/pages/fit_sections.h"
 #include "reports/pages/spheres_section.h"
@@ -25,8 +26,11 @@
 namespace gonio {
 
 FitPage make_fit_page(const gonio::Table& table, const BoundModel& fitted) {
-  return {table.channels, make_cuts(table, fitted), make_residual_map(table, fitted),
-          make_spheres(table, {&fitted, 1}), !fitted.model.lobes.empty()};
+  const auto few = of_drawn_channels(table);
+  const gonio::Table& drawn = few ? *few : table;
+  return {drawn.channels, make_cuts(drawn, of_drawn_channels(fitted)),
+          make_residual_map(table, fitted), make_spheres(table, {&fitted, 1}),
+          !fitted.model.lobes.empty()};
 }
 
 std::string to_json(const FitPage& page, std::string_view fit_json, std::string_view health_json) {
@@ -363,7 +367,7 @@ std::string fit_page_html(const FitDocument& d,
        {"time", milliseconds_text(total)}},
       "facts"});
   out.sections = {parameters(d, rows),
-                  curves_section(t, p.curves, pictures),
+                  curves_section(t, p.channels, p.curves, pictures),
                   spheres_section(p.spheres, "fit"),
                   residuals(d, p.residual_map, pictures),
                   albedo(d, h, pictures),

@@ -12,6 +12,7 @@
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/pages/angle_bins.h"
+#include "reports/pages/drawn_channels.h"
 #include "reports/pages/fields.h"
 #include "reports/pages/table_sections.h"
 #include "table/health/directional_albedo.h"
@@ -109,7 +110,10 @@ TrustMap make_trust_map(const gonio::Table& t) {
 }
 
 InspectPage make_inspect_page(const gonio::Table& t) {
-  return {t.channels, make_cuts(t), make_slice_picture(t), make_trust_map(t), albedo_curve(t, 5)};
+  const auto few = of_drawn_channels(t);
+  const gonio::Table& drawn = few ? *few : t;
+  return {drawn.channels, make_cuts(drawn), make_slice_picture(drawn), make_trust_map(t),
+          albedo_curve(drawn, 5)};
 }
 
 std::string to_json(const InspectPage& page, std::string_view health_json) {
@@ -272,10 +276,11 @@ Section noise(const InspectPage& page, const Noise& n) {
     return t;
   };
   std::string channels;
-  if (!n.bound && n.channels.size() > 1)
-    for (std::size_t c = 0; c < n.channels.size(); ++c)
+  const auto drawn = drawn_channels(n.channels.size());
+  if (!n.bound && drawn.size() > 1)
+    for (std::size_t c = 0; c < drawn.size(); ++c)
       channels += fmt::format("{}{} {}", c == 0 ? " By channel: " : ", ", page.channels[c],
-                              percent(n.channels[c]));
+                              percent(n.channels[drawn[c]]));
   if (!channels.empty()) channels += ".";
   Section out{
       "Noise",
@@ -384,7 +389,8 @@ Pairs facts(const Health& h) {
   for (const auto& a : h.albedo)
     if (std::ranges::all_of(a.albedo, [](double x) { return std::isfinite(x); })) {
       std::string each;
-      for (const double x : a.albedo) each += (each.empty() ? "" : " ") + significant(x, 2);
+      for (const std::size_t c : drawn_channels(a.albedo.size()))
+        each += (each.empty() ? "" : " ") + significant(a.albedo[c], 2);
       fact("albedo", each, "at " + degrees_text(a.theta_i_deg));
       break;
     }
@@ -425,7 +431,7 @@ std::string inspect_page_html(const gonio::Table& t,
     out.first.emplace_back(Points{std::move(warnings), "warnings"});
   out.first.emplace_back(facts(h));
   auto pictured = picture(p, pictures);
-  auto curves = curves_section(t, p.curves, pictures);
+  auto curves = curves_section(t, p.channels, p.curves, pictures);
   auto returned = albedo(p, pictures);
   page::Group trust{"columns", {reciprocity(p, h, pictures), masks(p, h, pictures)}};
   out.sections = {prospects(h),

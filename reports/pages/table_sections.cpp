@@ -5,8 +5,10 @@
 #include <numeric>
 #include <utility>
 
+#include "base/few.h"
 #include "base/quantile.h"
 #include "reports/page/numbers.h"
+#include "reports/pages/drawn_channels.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -39,8 +41,8 @@ FigureCurve points_of(std::string name,
 }
 
 /// Curves of one cut.
-Figure cut_figure(const gonio::Table& t, const Cut& cut, bool log) {
-  const bool in_plane = cut.along == "theta_o", several = t.channels.size() > 1;
+Figure cut_figure(const std::vector<std::string>& channels, const Cut& cut, bool log) {
+  const bool in_plane = cut.along == "theta_o", several = channels.size() > 1;
   Figure f = make_figure("curves", {{"scale", log ? "logarithmic" : "linear"},
                                     {"at", fmt::format("{:.4g}", cut.at_deg)}});
   f.title = fmt::format("{} = {}", with_signs(cut.at), degrees_text(cut.at_deg, 2));
@@ -70,8 +72,8 @@ Figure cut_figure(const gonio::Table& t, const Cut& cut, bool log) {
     f.y.from = log ? least / room : std::min(0.0, 1.06 * least);
     f.y.to = log ? most * room : 1.06 * most;
   }
-  for (std::size_t c = 0; c < t.channels.size(); ++c) {
-    const auto& name = t.channels[c];
+  for (std::size_t c = 0; c < channels.size(); ++c) {
+    const auto& name = channels[c];
     f.curves.push_back(points_of(several ? name : "table", cut.deg, cut.data[c]));
     if (!cut.uncertainty.empty())
       for (const double u : cut.uncertainty[c]) f.curves.back().y_error.push_back(two_sigma * u);
@@ -206,6 +208,7 @@ std::vector<std::string> table_warnings(const gonio::Table& t,
 }
 
 page::Section curves_section(const gonio::Table& t,
+                             const std::vector<std::string>& channels,
                              const std::vector<Cut>& cuts,
                              Pictures& pictures) {
   using namespace page;
@@ -231,6 +234,9 @@ page::Section curves_section(const gonio::Table& t,
       any(&Cut::left_out) ? " Samples called left out are those of --mask; no "
                             "fit reads them."
                           : "");
+  if (channels.size() < t.channels.size())
+    out.text += fmt::format(" Drawn are {} of {} channels, from the first to the last.",
+                            channels.size(), count_text(t.channels.size()));
   Choice c;
   c.controls = {{"scale", "Scale of f_r", "logarithmic"}};
   c.look = "";
@@ -239,7 +245,7 @@ page::Section curves_section(const gonio::Table& t,
   for (const bool log : {true, false}) {
     Group panels{"panels alike", {}};
     for (const auto& cut : cuts) {
-      pictures.figures.push_back(cut_figure(t, cut, log));
+      pictures.figures.push_back(cut_figure(channels, cut, log));
       const auto& f = pictures.figures.back();
       panels.parts.emplace_back(Shown{f.family, f.choices, 230});
     }
@@ -269,10 +275,10 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
   const auto fact = [&](std::string name, std::string text) {
     facts.each.emplace_back(std::move(name), std::move(text));
   };
-  fact("samples", fmt::format("{}, {}", count_text(h.samples),
-                              several ? fmt::format("{} channels ({})", t.channels.size(),
-                                                    fmt::join(t.channels, ", "))
-                                      : "1 channel"));
+  fact("samples",
+       fmt::format("{}, {}", count_text(h.samples),
+                   several ? fmt::format("{} channels ({})", t.channels.size(), few_of(t.channels))
+                           : "1 channel"));
   fact("valid values", of(h.valid));
   for (std::size_t m = 1; m < h.masked.size(); ++m) fact(words(names_of<Mask>[m]), of(h.masked[m]));
   fact("range", fmt::format("{} (smallest positive) to {} 1/sr", significant(h.smallest_positive),
@@ -306,11 +312,13 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
   Group beside{"", {}};
   if (!h.albedo.empty()) {
     page::Table albedo{columns("θ_i"), {}, "scroll"};
-    for (const auto& c : t.channels) albedo.head.push_back({several ? c : "albedo", true});
+    const auto drawn = drawn_channels(t.channels.size());
+    for (const std::size_t c : drawn)
+      albedo.head.push_back({several ? t.channels[c] : "albedo", true});
     albedo.head.push_back({"coverage", true});
     for (const auto& a : h.albedo) {
       auto& row = albedo.rows.emplace_back(std::vector{Cell(degrees_text(a.theta_i_deg))});
-      for (const double x : a.albedo) row.emplace_back(significant(x));
+      for (const std::size_t c : drawn) row.emplace_back(significant(a.albedo[c]));
       row.emplace_back(percent(a.coverage));
     }
     beside.parts.emplace_back(Subtitle{"Directional albedo of the data"});

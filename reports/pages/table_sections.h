@@ -36,7 +36,11 @@ double limit_of(std::vector<double> sizes);
 std::vector<std::string> table_warnings(const Table&,
                                         const Health&,
                                         const std::vector<std::string>* fitted);
-page::Section curves_section(const Table&, const std::vector<Cut>&, Pictures&);
+/// \param channels  those of the cuts
+page::Section curves_section(const Table&,
+                             const std::vector<std::string>& channels,
+                             const std::vector<Cut>&,
+                             Pictures&);
 /// Noise in a few words: "about 2 % of each value, from repeated samples".
 std::string noise_words(const Noise&);
 page::Section trust_section(const Table&, const Health&);

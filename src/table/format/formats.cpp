@@ -193,6 +193,12 @@ std::string side_text_of(InputFile& in) {
   return is_exr(in.peek(4)) ? "" : side_text(in.path());
 }
 
+/// True of text whose first line has hundreds of columns.
+bool is_wide(std::string_view head) {
+  constexpr std::ptrdiff_t many = 100;
+  return std::ranges::count(head.substr(0, head.find('\n')), ',') > many;
+}
+
 }  // namespace
 
 double memory_needed(const std::string& path) {
@@ -200,10 +206,12 @@ double memory_needed(const std::string& path) {
     InputFile in(path);
     constexpr double times_the_file = 8, of_json = 40,
                      of_zemax = 64,  // a value has two bytes, and its direction none
+        of_wide = 100,               // so has one of hundreds of channels, and a fit takes more
         of_image = 3e8;              // an image may be packed to nothing
     const std::string head = in.peek(1 << 16);
     return (is_brdf_json(head) || is_xompt(head) ? of_json
             : is_zemax(head)                     ? of_zemax
+            : is_wide(head)                      ? of_wide
                                                  : times_the_file) *
                static_cast<double>(in.size()) +
            (is_exr(head) ? of_image : 0);
