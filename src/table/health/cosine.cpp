@@ -210,9 +210,11 @@ void warn_of_reciprocity(TableFacts& facts, std::vector<std::string>& all) {
         100 * error));
   else
     all.push_back(fmt::format(
-        "exchanging the directions changes values by {:.2g} %, far more than noise: errors of the "
-        "instrument, which no model follows",
-        100 * error));
+        "exchanging the directions changes values by {:.2g} %, far more than noise: {}, which no "
+        "model follows",
+        100 * error,
+        facts.computed() ? "what computed the table is not reciprocal"
+                         : "errors of the instrument"));
 }
 
 }  // namespace gonio
