@@ -73,8 +73,11 @@ class Sayings {
     if (!cache || !streaming) return;
     // Of what is less, where memory is the limit, some runs find nothing: that it is no more holds
     // in all of them.
-    const auto text = [](const CostSwitch& s) {
-      return s.differs && s.ns > 0 ? ns_text(s.ns) + " more" : std::string("no more");
+    const auto text = [&](const CostSwitch& s) {
+      if (s.differs) return s.ns > 0 ? ns_text(s.ns) + " more" : std::string("no more");
+      return s.ns_spread > cache->ns / 2  // which would hide it
+                 ? fmt::format("at most {} more", ns_text(std::abs(s.ns) + s.ns_spread))
+                 : std::string("no more");
     };
     said_.headline = fmt::format(
         "Exact Smith in place of Schlick's k costs {} for a sample in cache; a whole GGX model "
@@ -253,8 +256,8 @@ class Sayings {
         short_text(us_to_percent(*caps) / us_to_percent(*plain)));
     say("Spherical caps draw a light in {} and Heitz's disk of 2018 in {}.", in_ns(caps->time),
         in_ns(disk->time));
-    say("Bounded caps draw {} % of their lights below the horizon, where unbounded ones draw "
-        "{} %.",
+    say("Bounded caps draw {} % of their lights below the horizon there, where unbounded ones "
+        "draw {} %.",
         short_text(100 * bounded->below), short_text(100 * caps->below));
   }
   void lookups() {

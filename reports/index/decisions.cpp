@@ -88,7 +88,9 @@ std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::
 std::string streaming_aside(const Facts& f, std::string_view taken, std::string_view cheap) {
   const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
   if (!a || !b) return {};
-  if (const auto d = more(*b, *a); d.survives && d.ns > 0) return {};
+  constexpr double seen = 0.1;  // of the model's time, that a spread must not hide
+  if (const auto d = more(*b, *a); (d.survives && d.ns > 0) || d.spread_ns > seen * b->ns)
+    return {};
   return " (in a whole model whose inputs come from memory no difference was measured)";
 }
 
