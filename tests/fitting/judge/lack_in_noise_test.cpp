@@ -22,6 +22,19 @@ FitDocument fit_of(const Table& t, const char* model) {
   return fit(t, o).document;
 }
 
+/// A surface on a goniometer, with noise in proportion to a value and beside it, clipped at the least.
+Table in_noise(const BoundModel& truth, unsigned seed, double part, double beside, double least) {
+  Table t;
+  t.format = "csv";
+  t.channels = {"f"};
+  test::put_on_goniometer(t, truth);
+  std::mt19937_64 random(seed);
+  std::normal_distribution<double> normal;
+  for (double& f : t.values[0])
+    f = std::max(f * std::exp(part * normal(random)) + beside * normal(random), least);
+  return t;
+}
+
 TEST(LackInNoise, MakesTheDiffuseTermsIntervalHoldWhatDarkNoiseTakesFromItsLogarithms) {
   const auto truth = test::bind(glossy, "alpha=0.15,f0=0.04,kd=0.03", 1);
   unsigned inside = 0, told = 0;
@@ -50,15 +63,7 @@ TEST(LackInNoise, AccusesNoRightModelBesideNoiseThatWasClipped) {
   // Zeros are left out of logarithms: what is left of the dark values is lifted.
   const auto truth = test::bind(glossy, "alpha=0.2,f0=0.05,kd=0.004", 1);
   for (unsigned seed = 1; seed <= 4; ++seed) {
-    Table t;
-    t.format = "csv";
-    t.channels = {"f"};
-    test::put_on_goniometer(t, truth);
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    for (double& f : t.values[0])
-      f = std::max(f * std::exp(0.02 * normal(random)) + 0.003 * normal(random),
-                   seed % 2 ? 0.0 : 1e-4);
+    const Table t = in_noise(truth, seed, 0.02, 0.003, seed % 2 ? 0.0 : 1e-4);
     FitOptions o;
     o.model = glossy;
     const auto d = fit(t, o).document;
@@ -106,14 +111,7 @@ TEST(LackInNoise, LimitsTheDiffuseTermOfOnlyTheChannelThatNoiseCovers) {
 TEST(LackInNoise, OfAWrongModelIsToldByBrightValuesThatItTakesForDark) {
   const auto truth = test::bind(glossy, "alpha=0.15,f0=0.05,kd=0.002", 1);
   for (unsigned seed = 1; seed <= 3; ++seed) {
-    Table t;
-    t.format = "csv";
-    t.channels = {"f"};
-    test::put_on_goniometer(t, truth);
-    std::mt19937_64 random(seed);
-    std::normal_distribution<double> normal;
-    for (double& f : t.values[0])
-      f = std::max(f * std::exp(0.01 * normal(random)) + 0.004 * normal(random), 0.0);
+    Table t = in_noise(truth, seed, 0.01, 0.004, 0);
     const auto matte = fit_of(t, "lambert");
     EXPECT_TRUE(matte.misfit.told) << seed << " " << matte.misfit.note;
     EXPECT_FALSE(fit_of(t, glossy).misfit.told) << seed;
