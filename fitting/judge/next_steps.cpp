@@ -232,7 +232,7 @@ std::vector<std::string> next_steps(const FitOptions& o,
   const auto unknown = unknown_lobe(d);
   const std::string less = unknown ? without_lobe(spec, *unknown) : "";
   std::string otherwise;
-  if (d.misfit.told && f.no_scale && units)
+  if (d.misfit.told && (f.no_scale || f.no_f) && units)
     if (const auto unit = units(attempt(d.model))) steps.add(unit->step);
   const bool mended = d.misfit.told && !f.no_f &&
                       add_models(steps, spec, d, attempt, units, less, f.needless, otherwise);

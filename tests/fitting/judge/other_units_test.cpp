@@ -48,6 +48,21 @@ TEST(OtherUnit, OfRadianceFactorsIsThatThoughOthersDoAsWell) {
   EXPECT_TRUE(d.next[0].starts_with("values may be radiance factors:")) << d.next[0];
 }
 
+TEST(OtherUnit, IsNamedWholeThoughItsCosineShowsWithoutAFit) {
+  Table t = synthesize(
+      test::bind("lambert+ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.05,kd=0.3", 1),
+      {.layout = Layout::hemisphere, .noise = 0.01});
+  t.truth.reset();  // as if measured
+  const SampleAngles at(t);
+  for (std::size_t i = 0; i < t.size(); ++i) t.values[0][i] *= std::numbers::pi * at(i).nov;
+  FitOptions o;
+  o.model = "lambert+ggx/smith_ggx.correlated/schlick";
+  o.certificate = Certify::automatic;
+  const auto d = fit(t, o).document;
+  ASSERT_FALSE(d.next.empty());
+  EXPECT_TRUE(d.next[0].starts_with("values may be pi f cos(theta_o):")) << d.next[0];
+}
+
 TEST(OtherUnit, OfATableIsToldThoughAScaleOfEachAzimuthTakesMuchOfItUp) {
   const char* const paint = "lambert+ggx/smith_ggx.correlated/schlick";
   for (const double scale : {1.0, std::numbers::pi})
