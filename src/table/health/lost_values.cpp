@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 #include <set>
 
@@ -138,8 +139,7 @@ bool are_exact_up_to(TableFacts& facts, std::size_t channel, double size) {
   const Values& plane = facts.table().values[channel];
   std::vector<double> near;
   for (const auto& d : facts.noise_samples().all)
-    if (d.channel == channel && plane[d.sample] < 4 * size)
-      near.push_back(std::abs(d.more));
+    if (d.channel == channel && plane[d.sample] < 4 * size) near.push_back(std::abs(d.more));
   constexpr std::size_t few = 8;
   constexpr double exact = 0.1;
   return near.size() >= few && median(near) < exact;
@@ -167,6 +167,33 @@ double noise_beside(TableFacts& facts, std::size_t channel, double least) {
   return are_exact_up_to(facts, channel, size) ? 0 : size;
 }
 
+/// The least value of channels, where several share it and noise is far larger.
+std::optional<SharedEnd> end_in_noise(TableFacts& facts) {
+  constexpr std::size_t several = 3;
+  constexpr double far = 10;
+  const Table& t = facts.table();
+  const SampleAngles at(t);
+  const std::size_t step = t.size() / 60'000 + 1;
+  SharedEnd all{0, 0, 0, {}};
+  for (std::size_t c = 0; c < t.values.size(); ++c) {
+    SharedEnd e{std::numeric_limits<double>::infinity(), 0, 0, {t.channels[c]}};
+    for (std::size_t i = 0; i < t.size(); i += step) {
+      const double v = t.values[c][i];
+      if (!(v > 0) || mask(at(i), v) != Mask::valid) continue;
+      if (v < e.value) e.value = v, e.sharers = 0;
+      e.sharers += v == e.value;
+      ++e.values;
+    }
+    if (e.sharers < several || 500 * e.sharers < e.values || is_base(e) ||
+        (all.sharers > 0 && e.value != all.value) ||
+        !(noise_beside(facts, c, e.value) > far * e.value))
+      continue;
+    all.value = e.value, all.sharers += e.sharers, all.values += e.values;
+    all.channels.push_back(t.channels[c]);
+  }
+  return all.sharers > 0 ? std::optional(std::move(all)) : std::nullopt;
+}
+
 /// The least value, where that many share it and noise goes on above.
 std::optional<SharedEnd> clipped_end(TableFacts& facts) {
   const Table& t = facts.table();
@@ -177,13 +204,9 @@ std::optional<SharedEnd> clipped_end(TableFacts& facts) {
         above.push_back(std::abs(d.more));
     constexpr std::size_t few = 8;
     constexpr double noisy = 0.1;
-    if (is_base(e)) continue;
-    if (above.size() >= few && median(above) > noisy) return std::move(e);
-    const auto channel = static_cast<std::size_t>(
-        std::ranges::find(t.channels, e.channels.front()) - t.channels.begin());
-    if (noise_beside(facts, channel, e.value) > 10 * e.value) return std::move(e);
+    if (above.size() >= few && median(above) > noisy && !is_base(e)) return std::move(e);
   }
-  return {};
+  return end_in_noise(facts);
 }
 
 /// Name of a channel's values in a mask.
