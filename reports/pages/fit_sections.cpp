@@ -20,6 +20,13 @@ using page::Group;
 
 namespace {
 
+/// True of a parameter whose correlations are not known, as where it stands at a bound.
+bool stands_by_itself(const FitDocument& d, std::size_t i) {
+  for (std::size_t j = 0; j < d.free_names.size(); ++j)
+    if (j != i && known(d.correlations[std::max(i, j)][std::min(i, j)])) return false;
+  return true;
+}
+
 /// Rows of the correlations that are of known parameters.
 std::vector<std::size_t> rows_of_known(const FitDocument& d) {
   std::vector<std::size_t> rows;
@@ -32,7 +39,8 @@ std::vector<std::size_t> rows_of_known(const FitDocument& d) {
           return true;
       return false;
     };
-    if (std::ranges::none_of(d.parameters, is_unknown)) rows.push_back(i);
+    if (std::ranges::none_of(d.parameters, is_unknown) && !stands_by_itself(d, i))
+      rows.push_back(i);
   }
   return rows;
 }
@@ -340,6 +348,8 @@ Section confidence(const FitDocument& d, Pictures& pictures) {
   if (rows.size() > 1) {
     FigureMap m = make_map("correlation");
     m.title = "Correlation of the estimates";
+    if (rows.size() < d.free_names.size())
+      m.note = "without parameters that are not known, or stand at a bound";
     m.value = "correlation";
     m.diverging = true;
     m.limit = 1;
