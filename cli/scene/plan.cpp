@@ -1,6 +1,7 @@
 // gonio plan: the effects that each material of a scene needs.
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <filesystem>
 #include <optional>
 
@@ -39,22 +40,24 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
            Why::measured);
   const auto operations =
       fmt::format("{}{}",
-                  m.ops_saved < 0 ? fmt::format("{:.2g} × the operations", 1 - m.ops_saved)
-                                  : fmt::format("{:.0f} % fewer operations", 100 * m.ops_saved),
+                  std::abs(m.ops_saved) < 0.005 ? "as many operations"
+                  : m.ops_saved < 0 ? fmt::format("{:.2g} × the operations", 1 - m.ops_saved)
+                                    : fmt::format("{:.0f} % fewer operations", 100 * m.ops_saved),
                   looked_up ? ", lookups not counted" : "");
-  const auto ratio = fmt::format("{:.3g}", std::max(m.speedup, 1 / m.speedup));
-  const auto time = ratio == "1"    ? std::string("as fast")
-                    : m.speedup < 1 ? ratio + " × as slow"
-                                    : ratio + " × as fast";
+  const auto time = is_as_fast(m.speedup)
+                        ? std::string("as fast")
+                        : fmt::format("{:.3g} × as {}", std::max(m.speedup, 1 / m.speedup),
+                                      m.speedup < 1 ? "slow" : "fast");
   const bool by_time = cost == Cost::time;
-  say("{}: {}, {}\n", m.name, by_time ? time : operations, by_time ? operations : time);
+  say("{}: {}{}, {}\n", m.name, m.holds ? "" : "does not hold; ", by_time ? time : operations,
+      by_time ? operations : time);
+  if (!m.holds)
+    say_below("  beware  ",
+              not_kept(m, has_budget, "the tolerance") + "; it " + what_is_exceeded(m));
   say("  take    {}\n", m.spec);
   if (m.needs_table())
-    say_below("  beware  ",
-              fmt::format("no shader has the table of the light between facets that this needs; "
-                          "nearest comes {}, off by {} {:.2g} with all else exact, without the "
-                          "reference's own error",
-                          compensation_in_words(m.shipped), unit_of(t), m.shipped_quantile));
+    say_below("  beware  ", "no shader has the table of the light between facets that this keeps" +
+                                (m.without_table ? "; " + without_table(m, t) : std::string()));
   std::string kept, simpler, dropped, none;
   for (const auto& e : m.effects) {
     auto& list = e.keep                          ? kept
@@ -86,15 +89,10 @@ void print(const MaterialPlan& m, const Tolerance& t, Cost cost, bool has_budget
                     in_percent(t.quantile), m.checked.samples, compensation_in_words(m.reference),
                     unit_of(t), m.checked.quantile));
   }
-  if (!m.holds)
-    say_below("  beware  ",
-              !has_budget    ? "no set of forms keeps the tolerance; this is the closest plan"
-              : m.could_hold ? "the budget leaves no set that keeps the tolerance here"
-                             : "no set of forms keeps the tolerance, with the budget or without");
   if (m.only_unseen && m.holds)
     say_below("  beware  ",
-              "no other set keeps the tolerance both where sets are compared and on fresh points; "
-              "this one drops only what changes nothing");
+              "no other set keeps the tolerance where sets are compared and its margin on fresh "
+              "points; this one drops only what changes nothing");
   if (m.is_unlit())
     say_below("  beware  ", "no light comes to any point of it: every set of forms looks the same");
   if (m.failed)
@@ -174,12 +172,13 @@ Exit run(const PlanCall& o) {
 }  // namespace
 
 void add_plan(CommandLine& line) {
-  auto [c, o] = line.command<PlanCall>(
-      "plan",
-      "Says for each material of a scene which optical effects to simulate "
-      "there, which to drop, and "
-      "what that saves, within the scene's tolerance; exit 1 where no set of forms keeps it",
-      "gonio plan scene.json -o plan.json", run);
+  auto [c, o] =
+      line.command<PlanCall>("plan",
+                             "Says for each material of a scene which optical effects to simulate "
+                             "there, which to drop, and "
+                             "what that saves, within the scene's tolerance; exit 1 where no set "
+                             "of forms keeps it with a margin",
+                             "gonio plan scene.json -o plan.json", run);
   c.option("SCENE", o->scene, "Scene, gonio.scene/1").required();
   c.option("-o,--output", o->output, "The plan as a document, gonio.plan/2");
   c.option("--html", o->page, "The plan as a page: what to keep, what to drop and why");

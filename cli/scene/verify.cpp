@@ -22,15 +22,24 @@ struct VerifyCall : Common {
 void print(const VerifiedMaterial& m, const Tolerance& t) {
   const auto worst = rounded_up(m.found.worst, 3);
   const auto what =
-      m.bounded ? fmt::format(
-                      "by more than {:g}, which is less than {} % of all with {} % confidence; "
-                      "the worst by {}",
-                      t.limit, rounded_up(100 * m.found.bound), in_percent(t.confidence), worst)
-                : fmt::format(
-                      "from {} by more than {:g}, the worst by {}; no walk is known of this "
-                      "lobe, so that is no bound",
-                      compensation_in_words(m.reference), t.limit, worst);
-  say_below(fmt::format("{}: {}  ", m.name, m.holds ? "holds" : "is broken"),
+      m.bounded
+          ? fmt::format(
+                "by more than {:g}, which is less than {} % of all with {} % confidence; "
+                "the worst by {}{}",
+                t.limit, rounded_up(100 * m.found.bound), in_percent(t.confidence), worst,
+                m.holds || m.found.breaks(t)
+                    ? ""
+                    : fmt::format(
+                          "; {} % is allowed, and more points (--samples) may show that it holds",
+                          in_percent(1 - t.quantile)))
+          : fmt::format(
+                "from {} by more than {:g}, the worst by {}; no walk is known of this "
+                "lobe, so that is no bound",
+                compensation_in_words(m.reference), t.limit, worst);
+  say_below(fmt::format("{}: {}  ", m.name,
+                        m.holds             ? "holds"
+                        : m.found.breaks(t) ? "is broken"
+                                            : "is not shown to hold"),
             fmt::format("{} of {} points differ {}", m.found.exceeding, m.found.samples, what));
 }
 
@@ -58,10 +67,10 @@ Exit run(const VerifyCall& o) {
 }  // namespace
 
 void add_verify(CommandLine& line) {
-  auto [c, o] = line.command<VerifyCall>(
-      "verify",
-      "Judges a plan on fresh points of its scene; exit 1 where the scene's tolerance is broken",
-      "gonio verify scene.json plan.json", run);
+  auto [c, o] = line.command<VerifyCall>("verify",
+                                         "Judges a plan on fresh points of its scene; exit 1 where "
+                                         "the scene's tolerance is broken, or not shown to hold",
+                                         "gonio verify scene.json plan.json", run);
   c.option("SCENE", o->scene, "Scene that the plan was made for").required();
   c.option("PLAN", o->plan, "Plan, gonio.plan/2").required();
   c.option("--samples", o->samples, "Fresh points (16384, more where the tolerance needs them)")

@@ -92,8 +92,9 @@ void savings(Findings& to, const ScenesRows& r) {
                     "times as long.",
                     scenes_text(these), these.size() == 1 ? "" : "up to ",
                     rounded_up(1 / slowest->speedup_float)));
-    to.say(by_table ? "Only the tabulated light between facets keeps the tolerance there."
-                    : "No faster set of forms keeps the tolerance there with a plan's margin.");
+    to.say(fmt::format("No {} keeps the tolerance there with a plan's margin.",
+                       by_table ? "set of forms without the tabulated light between facets"
+                                : "faster set of forms"));
   }
   to.headline = fmt::format(
       "Leaving out what nobody sees saves {} or more of a shader's time in half of the {} scenes "

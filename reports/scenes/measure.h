@@ -18,6 +18,9 @@ std::string name_of_form(scene::Form);
 /// Name of an effect as a whole: "Fresnel", "masking".
 std::string_view name_of_effect(scene::Effect);
 
+/// How a time changes: "6.3 × as fast", "18 × as slow"; "as fast" where a clock would not tell.
+std::string speed(double ratio);
+
 /// Steps that a byte of a picture's differences has to ΔE2000 1.
 inline constexpr double steps_of_difference = 50;
 /// Course of its colours: to what the tolerance allows at the quantile, and to the most.

@@ -1,4 +1,7 @@
-// Names of effects as people say them.
+// Names of effects, and speeds, as people say them.
+#include <algorithm>
+
+#include "reports/page/numbers.h"
 #include "reports/scenes/measure.h"
 
 namespace gonio::scenes {
@@ -49,6 +52,12 @@ std::string_view name_of_effect(Effect effect) {
     default:
       return name_of(effect);
   }
+}
+
+std::string speed(double ratio) {
+  return scene::is_as_fast(ratio)
+             ? "as fast"
+             : page::times(std::max(ratio, 1 / ratio)) + (ratio < 1 ? " as slow" : " as fast");
 }
 
 }  // namespace gonio::scenes

@@ -59,12 +59,6 @@ std::string kept_words(const scene::Forms& forms) {
   return out.empty() ? "nothing" : fmt::format("{}", fmt::join(out, ", "));
 }
 
-/// How the time changes: "6.3 × as fast", "18 × as slow".
-std::string speed(double ratio) {
-  const auto by = times(std::max(ratio, 1 / ratio));
-  return by == times(1) ? "as fast" : by + (ratio < 1 ? " as slow" : " as fast");
-}
-
 /// A bound as it stands in a sentence, without its sign.
 std::string bound_text(double x, int digits = 2) {
   return at_most(x, digits).substr(std::string_view("≤ ").size());
@@ -113,14 +107,22 @@ bool needs_all(const scene::MaterialPlan& m) {
 /// How much faster or slower the plan makes the materials that shaders can run as planned.
 void say_speeds(std::vector<std::string>& out, const scene::Plan& p) {
   std::vector<const scene::MaterialPlan*> faster;
-  std::vector<std::string> whole;
-  for (const auto& m : p.materials)
-    if (!m.needs_table()) needs_all(m) ? whole.push_back(m.name) : faster.push_back(&m);
+  std::vector<std::string> whole, as_fast;
+  for (const auto& m : p.materials) {
+    if (m.needs_table()) continue;
+    if (needs_all(m))
+      whole.push_back(m.name);
+    else if (scene::is_as_fast(m.speedup))
+      as_fast.push_back(m.name);
+    else
+      faster.push_back(&m);
+  }
   std::ranges::stable_sort(faster, std::greater{}, &scene::MaterialPlan::speedup);
-  const auto does = p.budget ? "The plan makes" : "Dropping what this scene does not need makes";
+  const auto* const does =
+      p.budget ? "The plan makes" : "Dropping what this scene does not need makes";
   if (!faster.empty()) {
     const auto &first = *faster[0], &last = *faster.back();
-    const auto most = speed(first.speedup), least = speed(last.speedup);
+    const auto most = scenes::speed(first.speedup), least = scenes::speed(last.speedup);
     out.push_back(
         faster.size() == 1 ? fmt::format("{} {} {}.", does, first.name, most)
         : most == least
@@ -133,55 +135,60 @@ void say_speeds(std::vector<std::string>& out, const scene::Plan& p) {
             : fmt::format("{} {}, which gains most, {}, and {}, which gains least, {}.", does,
                           first.name, most, last.name, least));
   }
+  if (!as_fast.empty())
+    out.push_back(fmt::format("{} {} as long as with all effects.", list_text(as_fast),
+                              as_fast.size() == 1 ? "takes" : "take"));
   if (!whole.empty())
     out.push_back(fmt::format("{} {} all effects that {}.", list_text(whole),
                               whole.size() == 1 ? "keeps" : "keep",
                               whole.size() == 1 ? "it has" : "they have"));
 }
 
-/// Materials whose plans break the tolerance, and whether the budget does that.
+/// Materials whose plans do not hold, whether the budget does that, and by how much they fail.
 void say_broken(std::vector<std::string>& out, const scene::Plan& p, const std::string& unit) {
   for (const auto& m : p.materials) {
     if (m.holds) continue;
-    const auto limit = unit + plain(p.tolerance.limit);
-    out.push_back(!p.budget
-                      ? fmt::format("No set of forms keeps {} for {}: this is the closest plan.",
-                                    limit, m.name)
-                  : m.could_hold
-                      ? fmt::format("The budget leaves no set that keeps {} for {}.", limit, m.name)
-                      : fmt::format("No set of forms keeps {} for {}, with the budget or without.",
-                                    limit, m.name));
+    out.push_back(
+        capital(not_kept(m, p.budget.has_value(),
+                         fmt::format("{}{} for {}", unit, plain(p.tolerance.limit), m.name))) +
+        ".");
+    out.push_back(fmt::format("The plan of {} {}.", m.name, what_is_exceeded(m)));
+  }
+}
+
+/// Materials that keep the light between facets as a table: whether the tolerance needs that.
+void say_tables(std::vector<std::string>& out, const scene::Plan& p) {
+  for (const auto& m : p.materials) {
+    if (!m.needs_table()) continue;
+    const auto time = m.speedup < 1 ? fmt::format("takes {} the time", times(1 / m.speedup))
+                                    : "is " + scenes::speed(m.speedup);
+    const bool is_needed = m.holds && m.without_table && !m.without_table->keeps_margin();
+    out.push_back(
+        is_needed
+            ? fmt::format("No forms that shaders have keep the tolerance for {} with a plan's "
+                          "margin: it needs the light between facets as a table, and {}.",
+                          m.name, time)
+            : fmt::format("The plan of {} keeps the light between facets as a table, which no "
+                          "shader has, and {}.",
+                          m.name, time));
+    if (m.without_table) out.push_back(capital(without_table(m, p.tolerance)) + ".");
   }
 }
 
 std::vector<std::string> verdict(const scene::Plan& p, const std::string& unit) {
   std::vector<std::string> out;
-  say_speeds(out, p);
-  for (const auto& m : p.materials)
-    if (m.needs_table()) {
-      out.push_back(fmt::format(
-          "No shader can keep the tolerance for {}: it needs the light between facets as a table, "
-          "and {} with it.",
-          m.name,
-          m.speedup < 1 ? fmt::format("takes {} the time", times(1 / m.speedup))
-                        : "is " + speed(m.speedup)));
-      out.push_back(
-          fmt::format("For {} {} comes nearest of those that ship: off by {}{} with all else "
-                      "exact, without the "
-                      "reference's own error.",
-                      m.name, scene::compensation_in_words(m.shipped), unit,
-                      significant(m.shipped_quantile, 2)));
-    }
-  say_errors(out, p, unit);
   say_broken(out, p, unit);
-  if (p.budget)
-    out.push_back(p.budget->fits
-                      ? fmt::format("A visible point takes {} ns of the {} ns that the scene "
-                                    "allows.",
-                                    significant(p.budget->ns), plain(p.budget->budget_ns))
-                      : fmt::format("Even the cheapest forms take {} ns a point, more than the {} "
-                                    "ns that the scene allows.",
-                                    significant(p.budget->ns), plain(p.budget->budget_ns)));
+  if (p.budget && !p.budget->fits)
+    out.push_back(
+        fmt::format("Even the cheapest forms take {} ns a point, more than the {} ns that "
+                    "the scene allows.",
+                    significant(p.budget->ns), plain(p.budget->budget_ns)));
+  say_speeds(out, p);
+  say_tables(out, p);
+  say_errors(out, p, unit);
+  if (p.budget && p.budget->fits)
+    out.push_back(fmt::format("A visible point takes {} ns of the {} ns that the scene allows.",
+                              significant(p.budget->ns), plain(p.budget->budget_ns)));
   return out;
 }
 
@@ -216,8 +223,7 @@ Section spheres(const scene::Scene& s, const scene::Plan& p) {
 
 /// What a set of the front failed by on fresh points.
 std::string failure(const scene::MaterialPlan& m, const scene::Candidate& c) {
-  if (m.failed && c.failed->worst > m.failed->most_worst)
-    return "failed, worst " + rounded_up(c.failed->worst);
+  if (c.failed->worst > m.margin.most_worst) return "failed, worst " + rounded_up(c.failed->worst);
   return std::isfinite(c.failed->exceeding_bound)
              ? fmt::format("failed, up to {} beyond the limit",
                            percent_at_most(c.failed->exceeding_bound))
@@ -261,13 +267,9 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
             "all effects in double, as double precision is one of them.",
             {t}};
   if (!m.holds)
-    s.parts.emplace_back(Prose{!p.budget ? "No set of forms keeps the tolerance here. This one is "
-                                           "the closest."
-                               : m.could_hold
-                                   ? "The budget leaves no set that keeps the "
-                                     "tolerance here."
-                                   : "No set of forms keeps the tolerance here, with the budget or "
-                                     "without."});
+    s.parts.emplace_back(Prose{
+        fmt::format("{}. It {}.", capital(not_kept(m, p.budget.has_value(), "the tolerance here")),
+                    what_is_exceeded(m))});
   const std::string failed =
       (m.passed_over ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set"))
                      : std::string()) +
@@ -287,8 +289,8 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
       "small"});
   if (m.only_unseen && m.holds)
     s.parts.emplace_back(
-        Prose{"No other set keeps the tolerance both where sets are compared and on fresh points, "
-              "so the plan drops only what changes nothing."});
+        Prose{"No other set keeps the tolerance where sets are compared and its margin on fresh "
+              "points, so the plan drops only what changes nothing."});
   s.parts.emplace_back(Prose{fmt::format("The model: `{}`", m.spec), "small"});
   if (m.front.size() > 1) {
     const bool by_time = p.cost == scene::Cost::time;
@@ -327,7 +329,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                           count_text(m.front[0].error.samples)),
               "small"});
     s.parts.emplace_back(front);
-    if (m.holds && !p.budget && !m.only_unseen && (!has_plan || has_faster)) {
+    if (m.holds && !m.only_unseen && (!has_plan || (has_faster && !p.budget))) {
       const auto which =
           has_plan ? std::string("A faster set keeps the tolerance, too.")
                    : fmt::format("The plan, at {} ns, is none of them.", significant(m.ns));
@@ -349,6 +351,26 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
 
 namespace gonio {
 
+namespace {
+
+std::string unit_of(const scene::Tolerance& t) {
+  return t.metric == scene::Metric::relative ? "" : "ΔE2000 ";
+}
+
+/// What a set exceeds that a plan may not.
+std::string exceeded(const scene::Judgement& j, const scene::Margin& margin, bool bounded) {
+  if (margin.is_taken_by_worst(j))
+    return fmt::format("differs by {} at its worst point, and {} is allowed", rounded_up(j.worst),
+                       rounded_down(margin.most_worst));
+  return bounded ? fmt::format(
+                       "may exceed the limit at {} % of all points, and {} % is allowed, so "
+                       "that a verification on other points agrees",
+                       rounded_up(100 * j.bound), rounded_down(100 * margin.most_exceeding))
+                 : "exceeds the limit at too many points";
+}
+
+}  // namespace
+
 std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
   const auto& f = *m.failed;
   // The nearest set is one by operations, and so may a cheaper one be.
@@ -361,21 +383,43 @@ std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
                   : m.passed_over == 1 ? "cheapest"
                                        : "nearest set with one form cheaper and fewer operations",
                   at);
-  if (f.fails_at_worst())
-    return fmt::format("{} differs by {} at its worst point, and {} is allowed", which,
-                       rounded_up(f.error.worst), rounded_down(f.most_worst));
-  return m.bounded
-             ? fmt::format(
-                   "{} may exceed the limit at {} % of all points, and {} % is allowed, so that a "
-                   "verification on other points agrees",
-                   which, rounded_up(100 * f.error.bound), rounded_down(100 * f.most_exceeding))
-             : which + " exceeds the limit at too many points";
+  return which + " " + exceeded(f.error, f.margin, m.bounded);
+}
+
+std::string not_kept(const scene::MaterialPlan& m, bool has_budget, const std::string& what) {
+  return !has_budget ? fmt::format(
+                           "no set of forms keeps {} with a plan's margin: this is the "
+                           "closest plan",
+                           what)
+         : m.could_hold
+             ? fmt::format("the budget leaves no set that keeps {} with a plan's margin", what)
+             : fmt::format(
+                   "no set of forms keeps {} with a plan's margin, with the "
+                   "budget or without",
+                   what);
+}
+
+std::string what_is_exceeded(const scene::MaterialPlan& m) {
+  return exceeded(m.checked, m.margin, m.bounded);
+}
+
+std::string without_table(const scene::MaterialPlan& m, const scene::Tolerance& t) {
+  const auto& set = *m.without_table;
+  const auto with =
+      fmt::format("{}, {} % of the points within {}{}",
+                  scene::compensation_in_words(set.forms.name(scene::Effect::compensation)),
+                  in_percent(t.quantile), unit_of(t), rounded_up(set.error.upper));
+  return set.keeps_margin()
+             ? fmt::format("a set without the table keeps the tolerance, too ({}, {:.3g} ns)", with,
+                           set.ns)
+             : fmt::format("the nearest set without the table ({}) {}", with,
+                           exceeded(set.error, set.margin, m.bounded));
 }
 
 std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
   using namespace page;
   const bool relative = p.tolerance.metric == scene::Metric::relative;
-  const std::string unit = relative ? "" : "ΔE2000 ", unit_name = relative ? "change" : "ΔE2000";
+  const std::string unit = unit_of(p.tolerance), unit_name = relative ? "change" : "ΔE2000";
   Page out{"", "plan", "Plan of a scene", "Only what the scene needs", verdict(p, unit)};
   Table t{{{"material"},
            {"time", true},
@@ -388,19 +432,26 @@ std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
           "told-by-cell"};
   for (const auto& m : p.materials)
     t.add(
-        m.name, speed(m.speedup), signed_percent(0 - m.ops_saved),
+        m.name, scenes::speed(m.speedup), signed_percent(0 - m.ops_saved),
         names(m, [](const auto& e) { return e.keep; }),
         names(m, [](const auto& e) { return !e.keep && e.why != scene::Why::structural; }),
         m.bounded ? at_most(m.checked.upper, m.holds ? 2 : 3) : significant(m.checked.quantile, 2),
         bound_text(m.checked.worst));
   out.sections = {
       {"What to keep, and how much faster that is",
-       fmt::format("A plan holds where {} of the points differ by {}{} at most, and none by more "
-                   "than {}. Time: that of the plan beside that of all effects which the material "
-                   "has, in float, with Kulla and Conty's lobe, on this machine. Operations count "
-                   "no look-ups.",
-                   percent_given(p.tolerance.quantile), unit, plain(p.tolerance.limit),
-                   plain(p.tolerance.max)),
+       fmt::format(
+           "The tolerance: {} of the points differ by {}{} at most, and none by more than {}. "
+           "{}Time: that of the plan beside that of all effects which the material has, in float, "
+           "with Kulla and Conty's lobe, on this machine. Operations count no look-ups.",
+           percent_given(p.tolerance.quantile), unit, plain(p.tolerance.limit),
+           plain(p.tolerance.max),
+           p.materials.empty()
+               ? ""
+               : fmt::format("A plan holds with a margin, so that a verification on other points "
+                             "agrees: at most {} % may exceed the limit, and the worst may differ "
+                             "by {}. ",
+                             rounded_down(100 * p.materials[0].margin.most_exceeding),
+                             rounded_down(p.materials[0].margin.most_worst))),
        {t}},
       spheres(s, p)};
   for (const auto& m : p.materials) out.sections.push_back(one(m, p, unit_name));

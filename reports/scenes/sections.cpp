@@ -22,10 +22,7 @@ using page::Table;
 std::string delta(double x) {
   return x < 0.005 ? "0" : significant(x, 2);
 }
-/// How the time changes: "13 × as fast", "16 × as slow".
-std::string speed(double ratio) {
-  return ratio < 1 ? times(1 / ratio) + " as slow" : times(ratio) + " as fast";
-}
+using scenes::speed;
 const SceneRow* found(const ScenesRows& all, std::string_view material, std::string_view light) {
   const auto at = std::ranges::find_if(
       all.rows, [&](const auto& r) { return r.material == material && r.light == light; });
@@ -56,7 +53,7 @@ Section plans(const ScenesRows& all) {
           "The large number compares the plan with all that the material has, both in float, as "
           "shaders ship it: with Kulla and Conty's lobe between facets. The small one compares it "
           "with everything on in double. A plan is slower where nothing as fast as that lobe "
-          "keeps the tolerance. All effects that are not kept are off. "
+          "keeps the tolerance with a plan's margin. All effects that are not kept are off. "
           "A plan that holds differs by ΔE2000 {} or less at {} of the points, and by {} at "
           "most.{}",
           plain(all.tolerance.limit), percent_given(all.tolerance.quantile),

@@ -35,6 +35,10 @@ std::vector<double> differences(Metric metric,
   return all;
 }
 
+double Margin::part(double x, double most) {
+  return x <= 0 ? 0 : most > 0 ? x / most : std::numeric_limits<double>::infinity();
+}
+
 Judgement judge(std::vector<double>& values, const Tolerance& t) {
   Judgement j;
   j.samples = values.size();

@@ -2,6 +2,7 @@
 /// \file
 /// Difference between what is seen and what should be.
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -31,7 +32,34 @@ struct Judgement {
   /// True where no larger a share is beyond the limit, with the tolerance's confidence, than its quantile leaves, and none is beyond
   /// the greatest.
   bool holds(const Tolerance& t) const { return bound <= 1 - t.quantile && worst <= t.max; }
+  /// True where these points by themselves break the tolerance: else it holds, or they are too few to show whether it does.
+  bool breaks(const Tolerance& t) const {
+    return static_cast<double>(exceeding) > (1 - t.quantile) * static_cast<double>(samples) ||
+           worst > t.max;
+  }
 };
+
+/// What a plan's points may show, so that a verification on other points agrees: less than the tolerance allows.
+struct Margin {
+  double most_exceeding = 0;  ///< that a judgement's bound may be
+  double most_worst = 0;      ///< that its worst may be
+
+  bool is_kept(const Judgement& j) const {
+    return j.bound <= most_exceeding && j.worst <= most_worst;
+  }
+  /// How much of it a judgement takes: up to 1 it is kept.
+  double taken(const Judgement& j) const {
+    return std::max(part(j.bound, most_exceeding), part(j.worst, most_worst));
+  }
+  /// True where it is the worst point that takes most of it; else it is the share beyond the limit.
+  bool is_taken_by_worst(const Judgement& j) const {
+    return part(j.worst, most_worst) > part(j.bound, most_exceeding);
+  }
+
+ private:
+  static double part(double x, double most);
+};
+
 /// \param values  reordered
 Judgement judge(std::vector<double>& values, const Tolerance&);
 

@@ -104,13 +104,15 @@ struct Description<scene::JudgedSet> {
         field("forms", &S::forms, "by effect"),
         field("ns", &S::ns, "of f of one direction of light", Numbers{}),
         field("ops", &S::ops, "operations of the same", amounts),
+        field("error_upper", if_there(at(&S::error, &Judgement::upper)),
+              "upper confidence bound of the quantile of the differences", amounts),
         field("worst", at(&S::error, &Judgement::worst), "greatest difference", amounts),
-        field("most_worst", &S::most_worst, "what that may be, for a verification to agree",
-              amounts),
+        field("most_worst", at(&S::margin, &scene::Margin::most_worst),
+              "what that may be, for a verification to agree", amounts),
         field("exceeding_bound", if_there(at(&S::error, &Judgement::bound)),
               "upper bound of the share beyond the limit", shares),
-        field("most_exceeding", &S::most_exceeding, "what that may be, for a verification to agree",
-              shares),
+        field("most_exceeding", at(&S::margin, &scene::Margin::most_exceeding),
+              "what that may be, for a verification to agree", shares),
         field("samples", at(&S::error, &Judgement::samples), "points that these errors are of",
               or_default)};
   }
@@ -165,15 +167,16 @@ struct Description<scene::MaterialPlan> {
               or_default),
         field("shipped_error_upper", if_there(&M::shipped_upper),
               "least error_upper of a compensation that shaders have, all else exact", amounts),
-        field("shipped_error_quantile", &M::shipped_quantile,
-              "least error_if_dropped among those compensations: without the reference's own error",
-              amounts, or_default),
-        field("shipped", &M::shipped, "that compensation", or_default),
+        field("without_table", if_there(&M::without_table),
+              "where the plan keeps the table, which no shader has: of the sets without it the "
+              "nearest to the margin, on fresh points"),
         field("reference_error", if_there(&M::reference_error),
               "quantile of two standard errors of the reference on the same points: in the "
               "differences",
               amounts),
-        field("holds", &M::holds, "the tolerance; else this is the nearest plan"),
+        field("holds", &M::holds,
+              "the tolerance, with the margin by which a verification is likely to agree; else "
+              "this is the nearest plan"),
         field(
             "error_upper", if_there(checked(&Judgement::upper)),
             "its upper confidence bound over points, two standard errors of the reference in each "
@@ -183,6 +186,10 @@ struct Description<scene::MaterialPlan> {
               or_default),
         field("exceeding_bound", if_there(checked(&Judgement::bound)),
               "upper bound of the share beyond the limit", shares),
+        field("most_worst", at(&M::margin, &scene::Margin::most_worst), "what worst may be",
+              amounts, or_default),
+        field("most_exceeding", at(&M::margin, &scene::Margin::most_exceeding),
+              "what exceeding_bound may be", shares, or_default),
         field("samples", checked(&Judgement::samples), "fresh points"),
         field("passed_over", &M::passed_over, "cheaper sets that failed on the fresh points",
               or_default),
@@ -190,8 +197,8 @@ struct Description<scene::MaterialPlan> {
               "the cheapest of these, or else the nearest set with one form cheaper, by the points "
               "that sets are compared on; and what it failed by"),
         field("only_unseen", &M::only_unseen,
-              "no set keeps the tolerance both where sets are compared and on fresh points: only "
-              "what changes no point by a hundredth of the limit is dropped",
+              "no set keeps the tolerance where sets are compared and its margin on fresh points: "
+              "only what changes no point by a hundredth of the limit is dropped",
               or_default),
         field("coverage", &M::coverage, "share of the picture that shows the material", shares,
               or_default),

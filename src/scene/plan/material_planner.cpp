@@ -1,6 +1,7 @@
 #include "scene/plan/material_planner.h"
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 #include <optional>
 #include <set>
@@ -21,8 +22,6 @@ namespace gonio::scene {
 namespace {
 
 constexpr std::size_t most_candidates = 512;
-/// Part of the greatest difference that the check leaves unused: no draw shows the very worst point.
-constexpr double reserve = 0.9;
 /// Confidence with which a set is ruled out: it cannot come back.
 constexpr double surely = 0.999;
 /// Fresh points by which most sets that fail do.
@@ -40,6 +39,15 @@ Key key_of(const Surface& s) {
   return {s.spec(), s.multiple.form, s.spectrum.has_value(), s.image_lit != nullptr, s.single};
 }
 
+Forms in_float(const Look& look, Forms f) {
+  f[Effect::precision] = look.offer(Effect::precision).forms.front();
+  return f;
+}
+/// All effects that the material has, in float: what a plan's speed is compared with.
+Surface shipped_surface(const Look& look) {
+  return look.surface(in_float(look, look.shipped()));
+}
+
 class MaterialPlanner {
  public:
   MaterialPlanner(const Lit& lit, std::size_t material, const PlanOptions& o)
@@ -49,11 +57,9 @@ class MaterialPlanner {
         drawer_(lit.drawer(material, o.directions)),
         exact_(look_.surface(look_.exact())),
         everything_(look_.surface(look_.everything())),
-        shipped_(look_.surface(in_float(look_.shipped()))),
+        shipped_(shipped_surface(look_)),
         reference_(scene_, seen(drawer_.draw(choosing, 0, o.samples), scene_, material), exact_),
-        most_exceeding_(share_that_passes(scene_.tolerance.quantile,
-                                          samples_of_verification(scene_),
-                                          scene_.tolerance.confidence)) {
+        margin_(margin_of(scene_)) {
     for (const auto& object : scene_.objects)
       if (lit.same_as[object.material] == material) join(reached_angles(scene_, object));
   }
@@ -74,10 +80,6 @@ class MaterialPlanner {
                       "an object of it that is larger in the picture");
     return p;
   }
-  Forms in_float(Forms f) const {
-    f[Effect::precision] = look_.offer(Effect::precision).forms.front();
-    return f;
-  }
   void join(const ReachedAngles& r) {
     reached_.voh.low = std::min(reached_.voh.low, r.voh.low);
     reached_.voh.high = std::max(reached_.voh.high, r.voh.high);
@@ -92,7 +94,7 @@ class MaterialPlanner {
   /// False where these points rule it out that a verification agrees.
   bool may_pass(const Judgement& j, double most_worst) const {
     return j.worst <= most_worst &&
-           exceedance_lower_bound(j.exceeding, j.samples, surely) <= most_exceeding_;
+           exceedance_lower_bound(j.exceeding, j.samples, surely) <= margin_.most_exceeding;
   }
   bool may_keep(const Judgement& j) const { return may_pass(j, scene_.tolerance.max); }
   /// All exact but one.
@@ -179,8 +181,13 @@ class MaterialPlanner {
       effects_.push_back(planned);
     }
     timed.push_back(everything_);
+    timed.push_back(exact_);
     const auto times = times_of(timed, reference_.points);
-    const double ns = times.back().ns, ops = operations_of(everything_, reference_.points);
+    const double ns = times[effect_count].ns, ops = operations_of(everything_, reference_.points);
+    const auto none = static_cast<std::size_t>(Effect::compensation);
+    table_ns_saved_ = times.back().ns - times[none].ns;
+    table_ops_saved_ =
+        operations_of(exact_, reference_.points) - operations_of(timed[none], reference_.points);
     for (std::size_t i = 0; i < effects_.size(); ++i) {
       if (effects_[i].why == Why::structural) continue;  // what is absent is computed by no shader
       effects_[i].ns_saved = ns - times[i].ns;
@@ -272,7 +279,9 @@ class MaterialPlanner {
   double counted_cost(const Candidate& c) const {
     return options_.cost == Cost::time ? c.counted_ns : c.ops;
   }
-  double spread(const Candidate& c) const { return options_.cost == Cost::time ? c.spread() : 0; }
+  bool costs_more(const Candidate& c, const Candidate& cheapest) const {
+    return options_.cost == Cost::time ? !c.is_as_fast_as(cheapest) : c.ops > cheapest.ops;
+  }
 
   /// Those that may keep the tolerance, best first: the cheapest, and before it those as cheap of fewer operations, or effects.
   std::vector<const Candidate*> in_order() const {
@@ -284,15 +293,10 @@ class MaterialPlanner {
              std::tuple(counted_cost(*b), b->forms.form);
     });
     while (!left.empty()) {
-      // A spread is what repetitions in one process leave open: twice that is none between
-      // processes.
-      const double most = counted_cost(*left[0]) + 2 * spread(*left[0]);
-      const auto end = std::ranges::find_if(
-          left, [&](auto* c) { return counted_cost(*c) - 2 * spread(*c) > most; });
-      const auto best = std::min_element(left.begin(), end, [&](auto* a, auto* b) {
-        return std::tuple(a->ops, a->kept(), a->forms.form) <
-               std::tuple(b->ops, b->kept(), b->forms.form);
-      });
+      const auto end =
+          std::ranges::find_if(left, [&](auto* c) { return costs_more(*c, *left[0]); });
+      const auto best = std::min_element(left.begin(), end,
+                                         [](auto* a, auto* b) { return a->is_simpler_than(*b); });
       order.push_back(*best);
       left.erase(best);
     }
@@ -300,7 +304,7 @@ class MaterialPlanner {
   }
 
   JudgedSet judged_set(const Forms& forms, double ns, double ops) const {
-    return {forms, ns, ops, {}, most_exceeding_, reserve * scene_.tolerance.max};
+    return {forms, ns, ops, {}, margin_};
   }
   /// A set by fresh points: enough to decide on it, or of one that fails at a glance few.  Those with the many directions that a lookup is compared with are drawn once.
   JudgedSet checked(
@@ -326,14 +330,12 @@ class MaterialPlanner {
       fresh.draw_to(std::min(n, most), scene_, drawer_, checking, exact_, s);
       judge_both(fresh.all, fresh.own);
       // What is beyond even by its estimate on many points would be a lucky draw.
-      const bool beyond = n > enough && static_cast<double>(set.error.exceeding) >
-                                            most_exceeding_ * static_cast<double>(fresh.drawn);
-      const bool fails = beyond || !may_pass(set.error, set.most_worst);
-      if (n < enough ? fails && !set.error.holds(t) : fails || passes(set) || n >= most) return set;
+      const bool beyond =
+          n > enough && static_cast<double>(set.error.exceeding) >
+                            margin_.most_exceeding * static_cast<double>(fresh.drawn);
+      const bool fails = beyond || !may_pass(set.error, margin_.most_worst);
+      if (fails || (n >= enough && (set.keeps_margin() || n >= most))) return set;
     }
-  }
-  static bool passes(const JudgedSet& s) {
-    return s.error.bound <= s.most_exceeding && !s.fails_at_worst();
   }
 
   /// What a surface changes: the quantile of its differences, without the reference's own error.
@@ -342,15 +344,46 @@ class MaterialPlanner {
     return judge(changes, scene_.tolerance).quantile;
   }
   void compare_shipped(MaterialPlan& p) const {
-    p.shipped_upper = p.shipped_quantile = std::numeric_limits<double>::infinity();
-    for (const auto form : look_.offer(Effect::compensation).forms) {
+    p.shipped_upper = std::numeric_limits<double>::infinity();
+    for (const auto form : look_.offer(Effect::compensation).forms)
+      if (form != Form::tabulated)
+        p.shipped_upper = std::min(p.shipped_upper, judged(with(Effect::compensation, form)).upper);
+  }
+  /// On as many fresh points as a plan: of the sets without the table the cheapest that keeps the margin where sets are compared; if
+  /// there it does not, or none does, the one that takes least of it, those among them that differ from all effects only by the table.
+  std::optional<JudgedSet> nearest_without_table() {
+    const auto& offered = look_.offer(Effect::compensation).forms;
+    if (offered.back() != Form::tabulated) return {};
+    std::vector<Candidate> all;
+    std::ranges::copy_if(candidates_, std::back_inserter(all), [](const Candidate& c) {
+      return c.forms[Effect::compensation] != Form::tabulated;
+    });
+    for (const auto form : offered) {
       if (form == Form::tabulated) continue;
-      const Surface s = with(Effect::compensation, form);
-      p.shipped_upper = std::min(p.shipped_upper, judged(s).upper);
-      const double changed = changed_by(s);
-      if (changed < p.shipped_quantile) p.shipped = name_of(form);
-      p.shipped_quantile = std::min(p.shipped_quantile, changed);
+      Candidate& c = all.emplace_back();
+      c.forms = in_float(look_, look_.structural());
+      c.forms[Effect::compensation] = form;
+      c.forms = plain(c.forms);
+      const Surface s = look_.surface(c.forms);
+      c.error = judged(s);
+      c.ops = operations_of(s, reference_.points);
     }
+    const auto taken = [&](const Candidate& c) {
+      Judgement j = c.error;
+      if (c.failed) j.worst = c.failed->worst, j.bound = c.failed->exceeding_bound;
+      return margin_.taken(j);
+    };
+    const auto checked_set = [&](const Forms& forms) {
+      const std::array surface{look_.surface(forms)};
+      return checked(forms, surface[0], times_of(surface, reference_.points)[0].ns,
+                     operations_of(surface[0], reference_.points), options_.fresh);
+    };
+    const Candidate* cheapest = nullptr;
+    for (const auto& c : all)
+      if (taken(c) <= 1 && (!cheapest || cost(c) < cost(*cheapest))) cheapest = &c;
+    if (cheapest)
+      if (const auto set = checked_set(cheapest->forms); set.keeps_margin()) return set;
+    return checked_set(std::ranges::min_element(all, {}, taken)->forms);
   }
 
   MaterialPlan chosen() {
@@ -363,45 +396,39 @@ class MaterialPlanner {
     p.coverage = drawer_.coverage();
     p.directions = static_cast<double>(reference_.points.point.size()) /
                    static_cast<double>(reference_.points.count);
+    p.margin = margin_;
+    p.table_ns_saved = table_ns_saved_;
+    p.table_ops_saved = table_ops_saved_;
     compare_shipped(p);
     if (!scene_.budget_ns) choose(p);
+    if (scene_.budget_ns || p.needs_table()) p.without_table = nearest_without_table();
     front(p);
+    if (scene_.budget_ns) p.sets = std::move(candidates_);
     return p;
   }
 
-  /// The first that is likely to hold in a verification, too; else the first that holds here; else what changes nothing.
+  /// The first that keeps the margin; else what changes nothing.
   void choose(MaterialPlan& p) {
-    const auto order = in_order();
-    std::vector<JudgedSet> all;
-    std::optional<std::size_t> holding;
-    for (const auto* c : order) {
-      all.push_back(checked(c->forms, surfaces_[static_cast<std::size_t>(c - candidates_.data())],
-                            c->ns, c->ops));
-      const bool sure = passes(all.back());
-      if (sure || (!holding && all.back().error.holds(scene_.tolerance))) holding = all.size() - 1;
-      if (sure) break;
-    }
-    p.passed_over = holding.value_or(all.size());
-    for (std::size_t i = 0; i < p.passed_over; ++i) {
-      candidates_[static_cast<std::size_t>(order[i] - candidates_.data())].failed = {
-          all[i].error.worst, all[i].error.bound};
-      if (!p.failed || cost(all[i]) < cost(*p.failed)) p.failed = all[i];
-    }
-    if (holding) {
-      if (!p.failed) p.failed = nearest_cheaper(p, all[*holding]);
-      settle(p, all[*holding]);
-      p.holds = true;
-      return;
+    for (const auto* c : in_order()) {
+      const auto i = static_cast<std::size_t>(c - candidates_.data());
+      const auto set = checked(c->forms, surfaces_[i], c->ns, c->ops);
+      if (set.keeps_margin()) {
+        if (!p.failed) p.failed = nearest_cheaper(p, set);
+        return settle(p, set);
+      }
+      candidates_[i].failed = {set.error.worst, set.error.bound};
+      ++p.passed_over;
+      if (!p.failed || cost(set) < cost(*p.failed)) p.failed = set;
     }
     p.only_unseen = true;
     const auto same = nearest();
     const std::array surface{look_.surface(same)};
     settle(p, checked(same, surface[0], times_of(surface, reference_.points)[0].ns,
                       operations_of(surface[0], reference_.points), options_.fresh));
-    p.holds = p.checked.holds(scene_.tolerance);
   }
   void settle(MaterialPlan& p, const JudgedSet& set) {
     p.checked = set.error;
+    p.holds = set.keeps_margin();
     p.reference_error = set.reference_error;
     take(p, look_, set.forms, set.ns, set.ops);
   }
@@ -464,7 +491,7 @@ class MaterialPlanner {
   /// All effects that the material has, in float: what a plan's speed is compared with.
   Surface shipped_;
   Reference reference_;
-  double most_exceeding_;  ///< share beyond the limit by which a verification is likely to agree
+  Margin margin_;
   /// What surfaces that look the environment up are compared with, and its fresh points.
   std::optional<Reference> under_sky_, fresh_under_sky_;
   ReachedAngles reached_{{1, 0}};
@@ -473,7 +500,7 @@ class MaterialPlanner {
   std::set<Key> known_;  ///< of all sets so far
   std::vector<Candidate> candidates_;
   std::vector<Surface> surfaces_;
-  double ns_exact_ = 0;
+  double ns_exact_ = 0, table_ns_saved_ = 0, table_ops_saved_ = 0;
 };
 
 }  // namespace
@@ -486,6 +513,8 @@ void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns, doub
   const Surface surface = look.surface(forms);
   p.forms = forms;
   p.ns = ns;
+  // What computes the same takes as long, whatever a noisy clock says.
+  if (key_of(surface) == key_of(shipped_surface(look))) p.ns_exact = ns;
   p.spec = surface.spec();
   p.parameters = surface.parameters();
   p.speedup = p.ns_exact / p.ns;
@@ -493,6 +522,8 @@ void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns, doub
   for (auto& e : p.effects) {
     e.keep = forms.keeps(e.effect);
     e.form = forms.name(e.effect);
+    if (e.effect == Effect::compensation && p.needs_table())
+      e.ns_saved = p.table_ns_saved, e.ops_saved = p.table_ops_saved;
   }
 }
 

@@ -1,7 +1,9 @@
 #include "scene/plan/plan.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include "base/error.h"
@@ -27,9 +29,33 @@ std::string compensation_in_words(std::string_view form) {
                                  : "walks between facets";
 }
 
+namespace {
+
+/// Times that differ by less of them are taken for the same.
+constexpr double least_spread = 0.03;
+
+/// A spread is what repetitions in one process leave open: twice that is none between processes.
+bool are_too_near(double a, double spread_a, double b, double spread_b) {
+  return std::abs(a - b) <= 2 * (spread_a + spread_b);
+}
+
+}  // namespace
+
 double Candidate::spread() const {
-  constexpr double least_spread = 0.03;  // of the time
   return std::max(ns_spread, least_spread * ns);
+}
+
+bool Candidate::is_as_fast_as(const Candidate& other) const {
+  return are_too_near(counted_ns, spread(), other.counted_ns, other.spread());
+}
+
+bool Candidate::is_simpler_than(const Candidate& other) const {
+  return std::tuple(ops, kept(), forms.form) <
+         std::tuple(other.ops, other.kept(), other.forms.form);
+}
+
+bool is_as_fast(double speedup) {
+  return are_too_near(speedup, least_spread * speedup, 1, least_spread);
 }
 
 void count_times(std::vector<Candidate>& all, const Look& look) {
@@ -73,24 +99,59 @@ void give_reasons(MaterialPlan& p, const Tolerance& t, bool has_budget) {
     e.reason += p.holds ? ", but with the other forms of this plan the limit is kept, as its check "
                           "found"
                 : has_budget ? ", but the budget leaves no time for it"
-                             : ", but no set keeps the tolerance and this one is the closest";
+                             : ", but no set keeps the tolerance with a plan's margin and this one "
+                               "is the closest";
+  }
+}
+
+/// Puts the simplest of the sets that are as fast in the place of each that was chosen, where it errs by no more than may be and the
+/// budget is kept.
+void settle_ties(Shares& shares,
+                 const std::vector<Sharer>& sharers,
+                 const std::vector<MaterialPlan>& materials,
+                 double budget_ns,
+                 double enough) {
+  double covered = 0;
+  for (const auto& s : sharers) covered += s.coverage;
+  for (std::size_t i = 0; i < sharers.size(); ++i) {
+    const auto& choices = sharers[i].choices;
+    const auto& sets = materials[i].sets;
+    const std::size_t chosen = shares.choice[i];
+    const double most = std::max(choices[chosen].error, std::min(shares.error, enough));
+    const auto ns_with = [&](std::size_t k) {
+      return shares.ns + sharers[i].coverage / covered * (choices[k].ns - choices[chosen].ns);
+    };
+    std::size_t best = chosen;
+    for (std::size_t k = 0; k < choices.size(); ++k)
+      if (sets[k].is_as_fast_as(sets[chosen]) && sets[k].is_simpler_than(sets[best]) &&
+          choices[k].error <= most && ns_with(k) <= budget_ns)
+        best = k;
+    shares.ns = ns_with(best);
+    shares.choice[i] = best;
   }
 }
 
 /// Shares the scene's time out, and checks what each material got.
 void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
   const Scene& s = lit.scene;
+  const double limit = s.tolerance.limit;
+  // A set whose worst point leaves no margin breaks the tolerance, too.
+  const double beyond = std::nextafter(limit, std::numeric_limits<double>::infinity());
   std::vector<Sharer> sharers;
   for (const auto& m : plan.materials) {
     Sharer sharer{m.coverage, {}};
-    for (const auto& c : m.front) sharer.choices.push_back({c.ns * m.directions, c.error.upper});
+    for (const auto& c : m.sets)
+      sharer.choices.push_back({c.ns * m.directions, c.error.worst > m.margin.most_worst
+                                                         ? std::max(c.error.upper, beyond)
+                                                         : c.error.upper});
     sharers.push_back(std::move(sharer));
   }
-  const auto shares = share_out(sharers, *s.budget_ns, s.tolerance.limit);
+  auto shares = share_out(sharers, *s.budget_ns, limit);
+  if (shares.fits) settle_ties(shares, sharers, plan.materials, *s.budget_ns, limit);
   plan.budget = Budget{*s.budget_ns, shares.ns, 0, shares.fits};
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     auto& m = plan.materials[i];
-    const auto& c = m.front[shares.choice[i]];
+    const auto& c = m.sets[shares.choice[i]];
     const auto index = static_cast<std::size_t>(
         std::ranges::find(s.materials, m.name, &Material::name) - s.materials.begin());
     const Look& look = lit.looks[index];
@@ -101,7 +162,8 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     fresh.draw_to(fresh_points(s, options, surface), s, drawer, checking, exact, surface);
     m.checked = judge(fresh.all, s.tolerance);
     m.reference_error = judge(fresh.own, s.tolerance).quantile;
-    m.holds = m.checked.holds(s.tolerance);
+    m.holds = m.margin.is_kept(m.checked);
+    if (!m.needs_table()) m.without_table.reset();
     m.could_hold = std::ranges::any_of(
         m.front, [&](const Candidate& each) { return each.error.keeps(s.tolerance); });
   }
@@ -126,7 +188,7 @@ void name_all(Plan& plan, const Lit& lit) {
 void claim_no_bound(MaterialPlan& m) {
   constexpr double none = std::numeric_limits<double>::infinity();
   m.checked.upper = m.checked.bound = m.reference_error = m.shipped_upper = none;
-  if (m.failed) m.failed->error.bound = none;
+  if (m.failed) m.failed->error.bound = m.failed->error.upper = none;
   for (auto& c : m.front) {
     c.error.upper = none;
     if (c.failed) c.failed->exceeding_bound = none;
@@ -144,6 +206,13 @@ std::size_t samples_of_verification(const Scene& s) {
                                 s.tolerance.quantile, s.tolerance.confidence, needed),
                     fmt::format("what {} points can show", most / 4));
   return std::max(verified_samples, 4 * needed);
+}
+
+Margin margin_of(const Scene& s) {
+  constexpr double reserve = 0.9;  // no draw shows the very worst point
+  return {
+      share_that_passes(s.tolerance.quantile, samples_of_verification(s), s.tolerance.confidence),
+      reserve * s.tolerance.max};
 }
 
 std::size_t points_of_plan(const Scene& s, std::size_t samples) {

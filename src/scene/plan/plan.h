@@ -34,7 +34,7 @@ struct PlannedEffect {
          ops_saved = 0;  ///< by its cheapest form, all else exact, of one direction of light
 };
 
-/// What a set that keeps the tolerance where sets are compared failed by on fresh points.
+/// What a set that may keep the tolerance where sets are compared failed by on fresh points.
 struct FreshError {
   double worst = 0, exceeding_bound = 1;  ///< as a Judgement has them
 };
@@ -50,6 +50,10 @@ struct Candidate {
 
   /// Times that differ by less than this are taken for the same.
   double spread() const;
+  /// True where the counted times are too near to each other for a clock: within twice their spreads.
+  bool is_as_fast_as(const Candidate&) const;
+  /// True where it has fewer operations, of as many fewer effects.
+  bool is_simpler_than(const Candidate&) const;
   /// Number of effects that it keeps.
   std::size_t kept() const;
 };
@@ -63,13 +67,10 @@ struct JudgedSet {
   Forms forms;
   double ns = 0, ops = 0;  ///< of f of one direction of light
   Judgement error;
-  double most_exceeding =
-      0;  ///< share beyond the limit that `error.bound` may be, for a verification to agree
-  double most_worst = 0;       ///< what `error.worst` may be, for the same
+  Margin margin;
   double reference_error = 0;  ///< quantile of the reference's own error on the same points
 
-  /// True where it is the worst point that fails; else it is the share beyond the limit.
-  bool fails_at_worst() const { return error.worst > most_worst; }
+  bool keeps_margin() const { return margin.is_kept(error); }
 };
 
 struct MaterialPlan {
@@ -85,20 +86,23 @@ struct MaterialPlan {
   double reference_error = 0;  ///< quantile of that error
   /// Least upper bound of what light between facets in a form that shaders have leaves, all else exact.
   double shipped_upper = 0;
-  double shipped_quantile = 0;  ///< the least quantile of these, without the reference's own error
-  std::string shipped;          ///< the form that leaves it
+  /// Where it keeps light between facets as a table: of the sets without it the nearest to the margin, on fresh points.
+  std::optional<JudgedSet> without_table = {};
+  double table_ns_saved = 0, table_ops_saved = 0;  ///< what dropping that table saves
   bool holds =
-      false;  ///< the tolerance; else no form that is offered does, and this is the nearest
+      false;  ///< the margin is kept; else no set that is offered does, and this is the nearest
   bool could_hold = false;  ///< a set of the front keeps the tolerance: only the budget forbids it
   Judgement checked;        ///< on fresh points
+  Margin margin;            ///< that these leave for others
   std::size_t passed_over = 0;  ///< cheaper sets that were checked on fresh points, and failed
   /// The cheapest of these; of none the nearest set with one form cheaper, by the points that sets are compared on.
   std::optional<JudgedSet> failed = {};
-  /// No set keeps the tolerance both where sets are compared and on fresh points: this drops only what changes nothing.
+  /// No set may keep the tolerance where sets are compared and keeps the margin on fresh points: this drops only what changes nothing.
   bool only_unseen = false;
   double coverage = 0;           ///< of the picture
   double directions = 0;         ///< of light that come to a point, on average
   std::vector<Candidate> front;  ///< none of the others is cheaper and errs less
+  std::vector<Candidate> sets;   ///< all that a budget chooses among
   Forms forms;
 
   /// True where it keeps light between facets as a table, which no shader has.
@@ -106,6 +110,8 @@ struct MaterialPlan {
   /// True where no light comes to any of its points, so that every set of forms looks the same.
   bool is_unlit() const { return directions == 0 && checked.worst == 0; }
 };
+/// True of a ratio of times that differ by no more than a clock leaves open.
+bool is_as_fast(double speedup);
 /// "Kulla and Conty's lobe", by the name of a form of compensation.
 std::string compensation_in_words(std::string_view form);
 
@@ -141,6 +147,8 @@ inline constexpr std::size_t verified_samples = 16'384;
 /// Points that show that a tolerance is kept: these, or four times as many as its quantile and confidence need.  Bad input of the
 /// scene where that is more than 65 536.  \see verify
 std::size_t samples_of_verification(const Scene&);
+/// Share beyond the limit and worst point up to which a verification is likely to agree.
+Margin margin_of(const Scene&);
 /// Points that sets are compared on, where a tolerance asks for no more: these, or half of those of a verification.
 std::size_t points_of_plan(const Scene&, std::size_t samples);
 
@@ -152,10 +160,10 @@ std::size_t points_of_plan(const Scene&, std::size_t samples);
 ///      combinations, at most 512.  Those that look an environment up are compared with 1024 directions a point.  Errors may
 ///      cancel: of at most 512 sets of any forms that shaders have, those that keep the tolerance are candidates, too
 ///   4  the cheapest that these points do not rule out, ties within the spread of times going to fewer operations and then to fewer
-///      effects, is checked on fresh points, strictly enough that fresh ones of a verification are likely to agree; where its
+///      effects, is checked on fresh points, with the margin by which fresh ones of a verification are likely to agree; where its
 ///      share beyond the limit is so near to what may be that they do not decide, up to 16 times as many are drawn; if it fails
-///      the next is taken; if all do, the first that still holds on these points; if none does, only what changes no point by a
-///      hundredth of the limit is dropped
+///      the next is taken; if all do, only what changes no point by a hundredth of the limit is dropped.  A plan that holds keeps
+///      the margin, however it was found
 ///
 /// Each point's difference counts with what the reference itself may be off by there.  Where the scene has a budget, all forms are candidates', and in place of 4 those are taken whose worst error is the least that
 /// the budget leaves, and what is left of it goes to those that break the tolerance; it may be broken then, which a verification shows.

@@ -157,8 +157,8 @@ TEST(Plan, NamesTheCheapestSetThatFailedOnFreshPoints) {
   const auto p = plan_scene(s, few).materials.at(0);
   ASSERT_GT(p.passed_over, 0U);
   ASSERT_TRUE(p.failed);
-  EXPECT_TRUE(p.failed->fails_at_worst() || p.failed->error.bound > p.failed->most_exceeding);
-  EXPECT_DOUBLE_EQ(p.failed->most_worst, 0.9 * 4);
+  EXPECT_TRUE(!p.failed->keeps_margin());
+  EXPECT_DOUBLE_EQ(p.failed->margin.most_worst, 0.9 * 4);
 }
 
 TEST(Plan, NamesTheNearestSetWithOneFormCheaperWhereNoneFailedOnFreshPoints) {
@@ -167,7 +167,7 @@ TEST(Plan, NamesTheNearestSetWithOneFormCheaperWhereNoneFailedOnFreshPoints) {
   ASSERT_EQ(p.passed_over, 0U);
   ASSERT_TRUE(p.failed);
   EXPECT_LT(p.failed->ops, p.ops_exact * (1 - p.ops_saved));
-  EXPECT_TRUE(p.failed->fails_at_worst() || p.failed->error.bound > p.failed->most_exceeding);
+  EXPECT_TRUE(!p.failed->keeps_margin());
 }
 
 /// About 0.71 % of its points differ by more than 1 in Schlick's Fresnel, where a plan may at 0.75 %: few points find either.
