@@ -13,6 +13,7 @@
 #include "geometry/direction.h"
 #include "reports/finding/words.h"
 #include "reports/scenes/plan_page.h"
+#include "scene/plan/cost.h"
 #include "scene/plan/document.h"
 
 #include <fmt/format.h>

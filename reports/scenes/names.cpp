@@ -3,6 +3,7 @@
 
 #include "reports/page/numbers.h"
 #include "reports/scenes/measure.h"
+#include "scene/plan/cost.h"
 
 namespace gonio::scenes {
 

@@ -10,6 +10,7 @@
 #include "reports/page/render.h"
 #include "reports/page/spheres.h"
 #include "reports/scenes/measure.h"
+#include "scene/plan/cost.h"
 #include "scene/plan/samples.h"
 
 #include <fmt/format.h>

@@ -1,8 +1,11 @@
 #include "scene/plan/budget.h"
 
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
+
+#include "scene/plan/cost.h"
 
 namespace gonio::scene {
 namespace {
@@ -52,19 +55,48 @@ void spend(Shares& s, const std::vector<Sharer>& all, double budget_ns, double e
   }
 }
 
+/// Takes the lowest rank of those that are as fast.
+void settle_ties(Shares& s, const std::vector<Sharer>& all, double budget_ns, double enough) {
+  double covered = 0;
+  for (const auto& sharer : all) covered += sharer.coverage;
+  if (!(covered > 0)) return;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    const auto& choices = all[i].choices;
+    const Choice& taken = choices[s.choice[i]];
+    const double most = std::max(taken.error, std::min(s.error, enough));
+    const auto ns_with = [&](const Choice& c) {
+      return s.ns + all[i].coverage / covered * (c.ns - taken.ns);
+    };
+    std::size_t best = s.choice[i];
+    for (std::size_t k = 0; k < choices.size(); ++k)
+      if (const Choice& c = choices[k];
+          c.rank < choices[best].rank && c.error <= most && ns_with(c) <= budget_ns &&
+          are_too_near({c.ns, c.spread_ns}, {taken.ns, taken.spread_ns}))
+        best = k;
+    s.ns = ns_with(choices[best]);
+    s.choice[i] = best;
+  }
+}
+
 }  // namespace
 
-Shares share_out(const std::vector<Sharer>& all, double budget_ns, double enough) {
+Shares share_out(std::vector<Sharer> all, double budget_ns, double enough) {
   std::vector<double> errors;
-  for (const auto& sharer : all)
-    for (const auto& c : sharer.choices) errors.push_back(c.error);
+  for (auto& sharer : all)
+    for (auto& c : sharer.choices) {
+      if (c.breaks) c.error = std::max(c.error, std::nextafter(enough, infinity));
+      errors.push_back(c.error);
+    }
   std::ranges::sort(errors);
   // More error never costs more time.
   const auto fits = [&](double error) { return cheapest(all, error).ns <= budget_ns; };
   const auto least = std::ranges::partition_point(errors, [&](double e) { return !fits(e); });
   Shares s = cheapest(all, least == errors.end() ? infinity : *least);
   s.fits = least != errors.end();
-  if (s.fits) spend(s, all, budget_ns, enough);
+  if (s.fits) {
+    spend(s, all, budget_ns, enough);
+    settle_ties(s, all, budget_ns, enough);
+  }
   return s;
 }
 

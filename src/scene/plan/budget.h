@@ -10,8 +10,11 @@ namespace gonio::scene {
 
 /// Set of forms that a material may take.
 struct Choice {
-  double ns = 0;     ///< of a visible sample
-  double error = 0;  ///< upper bound of its quantile
+  double ns = 0;         ///< of a visible sample
+  double error = 0;      ///< upper bound of its quantile
+  bool breaks = false;   ///< the tolerance, however little it errs
+  double spread_ns = 0;  ///< of the time
+  std::size_t rank = 0;  ///< the lower of those that are as fast is taken
 };
 struct Sharer {
   double coverage = 0;          ///< of the picture
@@ -26,9 +29,10 @@ struct Shares {
 
 /// Choices with the least worst error whose mean time keeps the budget; of those with that error the cheapest.  The worst
 /// error is one of the choices' own: the least of these for which everyone's cheapest choice within it fits.  What is left of the
-/// budget goes to those that err by more than `enough`, the worst first: each takes the cheapest choice that errs by no more, or
-/// else the nearest that fits.
-Shares share_out(const std::vector<Sharer>&,
+/// budget goes to those that err by more than `enough`, or break the tolerance otherwise, the worst first: each takes the cheapest
+/// choice that errs by no more, or else the nearest that fits.  Last, each takes of the choices that are as fast as its own the one of
+/// the lowest rank that errs by no more than the worst, or than enough, and keeps the budget.
+Shares share_out(std::vector<Sharer>,
                  double budget_ns,
                  double enough = std::numeric_limits<double>::infinity());
 

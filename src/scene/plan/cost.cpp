@@ -151,6 +151,14 @@ double operations_of(const Surface& s, const LitPoints& p) {
              rows;
 }
 
+bool are_too_near(const Timing& a, const Timing& b) {
+  return std::abs(a.ns - b.ns) <= 2 * (a.spread_ns + b.spread_ns);
+}
+
+bool is_as_fast(double speedup) {
+  return are_too_near({speedup, least_spread * speedup}, {1, least_spread});
+}
+
 std::vector<Timing> times_of(std::span<const Surface> surfaces, const LitPoints& points) {
   // Where no light comes to any point, angles like any others.
   const std::vector<FrameAngles<double>> dark(

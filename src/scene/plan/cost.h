@@ -18,4 +18,12 @@ double operations_of(const Surface&, const LitPoints&);
 /// its rows, and looks up once a point.
 std::vector<Timing> times_of(std::span<const Surface>, const LitPoints&);
 
+/// True where two times are too near to each other for a clock: within twice their spreads.  A spread is what repetitions in one process
+/// leave open: twice that is none between processes.
+bool are_too_near(const Timing&, const Timing&);
+/// Part of a time that is its spread at least.
+inline constexpr double least_spread = 0.03;
+/// True of a ratio of times that are too near to each other.
+bool is_as_fast(double speedup);
+
 }  // namespace gonio::scene

@@ -1,7 +1,6 @@
 #include "scene/plan/plan.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <tuple>
 #include <utility>
@@ -10,6 +9,7 @@
 #include "base/rounded.h"
 #include "scene/plan/budget.h"
 #include "scene/plan/confidence.h"
+#include "scene/plan/cost.h"
 #include "scene/plan/material_planner.h"
 #include "scene/plan/reference.h"
 
@@ -29,33 +29,17 @@ std::string compensation_in_words(std::string_view form) {
                                  : "walks between facets";
 }
 
-namespace {
-
-/// Times that differ by less of them are taken for the same.
-constexpr double least_spread = 0.03;
-
-/// A spread is what repetitions in one process leave open: twice that is none between processes.
-bool are_too_near(double a, double spread_a, double b, double spread_b) {
-  return std::abs(a - b) <= 2 * (spread_a + spread_b);
-}
-
-}  // namespace
-
 double Candidate::spread() const {
   return std::max(ns_spread, least_spread * ns);
 }
 
 bool Candidate::is_as_fast_as(const Candidate& other) const {
-  return are_too_near(counted_ns, spread(), other.counted_ns, other.spread());
+  return are_too_near({counted_ns, spread()}, {other.counted_ns, other.spread()});
 }
 
 bool Candidate::is_simpler_than(const Candidate& other) const {
   return std::tuple(ops, kept(), forms.form) <
          std::tuple(other.ops, other.kept(), other.forms.form);
-}
-
-bool is_as_fast(double speedup) {
-  return are_too_near(speedup, least_spread * speedup, 1, least_spread);
 }
 
 void count_times(std::vector<Candidate>& all, const Look& look) {
@@ -104,50 +88,20 @@ void give_reasons(MaterialPlan& p, const Tolerance& t, bool has_budget) {
   }
 }
 
-/// Puts the simplest of the sets that are as fast in the place of each that was chosen, where it errs by no more than may be and the
-/// budget is kept.
-void settle_ties(Shares& shares,
-                 const std::vector<Sharer>& sharers,
-                 const std::vector<MaterialPlan>& materials,
-                 double budget_ns,
-                 double enough) {
-  double covered = 0;
-  for (const auto& s : sharers) covered += s.coverage;
-  for (std::size_t i = 0; i < sharers.size(); ++i) {
-    const auto& choices = sharers[i].choices;
-    const auto& sets = materials[i].sets;
-    const std::size_t chosen = shares.choice[i];
-    const double most = std::max(choices[chosen].error, std::min(shares.error, enough));
-    const auto ns_with = [&](std::size_t k) {
-      return shares.ns + sharers[i].coverage / covered * (choices[k].ns - choices[chosen].ns);
-    };
-    std::size_t best = chosen;
-    for (std::size_t k = 0; k < choices.size(); ++k)
-      if (sets[k].is_as_fast_as(sets[chosen]) && sets[k].is_simpler_than(sets[best]) &&
-          choices[k].error <= most && ns_with(k) <= budget_ns)
-        best = k;
-    shares.ns = ns_with(best);
-    shares.choice[i] = best;
-  }
-}
-
 /// Shares the scene's time out, and checks what each material got.
 void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
   const Scene& s = lit.scene;
-  const double limit = s.tolerance.limit;
-  // A set whose worst point leaves no margin breaks the tolerance, too.
-  const double beyond = std::nextafter(limit, std::numeric_limits<double>::infinity());
   std::vector<Sharer> sharers;
-  for (const auto& m : plan.materials) {
+  for (auto& m : plan.materials) {
+    std::ranges::sort(m.sets, [](auto& a, auto& b) { return a.is_simpler_than(b); });
     Sharer sharer{m.coverage, {}};
     for (const auto& c : m.sets)
-      sharer.choices.push_back({c.ns * m.directions, c.error.worst > m.margin.most_worst
-                                                         ? std::max(c.error.upper, beyond)
-                                                         : c.error.upper});
+      sharer.choices.push_back({c.ns * m.directions, c.error.upper,
+                                c.error.worst > m.margin.most_worst, c.spread() * m.directions,
+                                sharer.choices.size()});
     sharers.push_back(std::move(sharer));
   }
-  auto shares = share_out(sharers, *s.budget_ns, limit);
-  if (shares.fits) settle_ties(shares, sharers, plan.materials, *s.budget_ns, limit);
+  const auto shares = share_out(std::move(sharers), *s.budget_ns, s.tolerance.limit);
   plan.budget = Budget{*s.budget_ns, shares.ns, 0, shares.fits};
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     auto& m = plan.materials[i];

@@ -102,7 +102,7 @@ struct MaterialPlan {
   double coverage = 0;           ///< of the picture
   double directions = 0;         ///< of light that come to a point, on average
   std::vector<Candidate> front;  ///< none of the others is cheaper and errs less
-  std::vector<Candidate> sets;   ///< all that a budget chooses among
+  std::vector<Candidate> sets;   ///< all that a budget chooses among, the simplest first
   Forms forms;
 
   /// True where it keeps light between facets as a table, which no shader has.
@@ -110,8 +110,6 @@ struct MaterialPlan {
   /// True where no light comes to any of its points, so that every set of forms looks the same.
   bool is_unlit() const { return directions == 0 && checked.worst == 0; }
 };
-/// True of a ratio of times that differ by no more than a clock leaves open.
-bool is_as_fast(double speedup);
 /// "Kulla and Conty's lobe", by the name of a form of compensation.
 std::string compensation_in_words(std::string_view form);
 

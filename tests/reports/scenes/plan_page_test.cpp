@@ -6,6 +6,7 @@
 #include "many_fits.h"
 #include "reports/finding/words.h"
 #include "reports/scenes/cases.h"
+#include "reports/scenes/measure.h"
 
 #include <gtest/gtest.h>
 
@@ -75,7 +76,8 @@ TEST(PlanPage, NamesAMaterialThatKeepsTheToleranceInNoForm) {
   m.checked.upper = 1.0398, m.reference_error = 0.9635;
   const auto page = plan_page_html(plastic_scene(), p);
   EXPECT_NE(page.find("differs by at most ΔE2000 1.04;"), page.npos) << "1 would be the tolerance";
-  EXPECT_NE(page.find("No set of forms keeps ΔE2000 1 for red plastic"), page.npos);
+  EXPECT_NE(page.find("No set of forms keeps ΔE2000 1 for red plastic with a plan's margin"),
+            page.npos);
   EXPECT_NE(page.find("Up to 0.964 of red plastic's error may be the reference's own."), page.npos);
 }
 
@@ -87,9 +89,94 @@ TEST(PlanPage, CallsABudgetNoImpossibility) {
   m.could_hold = true;
   p.budget = scene::Budget{12, 3, 4.1, true};
   const auto page = plan_page_html(plastic_scene(), p);
-  EXPECT_NE(page.find("The budget leaves no set that keeps ΔE2000 1 for red plastic."), page.npos);
+  EXPECT_NE(page.find("The budget leaves no set that keeps ΔE2000 1 for red plastic with a plan's "
+                      "margin."),
+            page.npos);
   EXPECT_EQ(page.find("No set of forms"), page.npos);
   EXPECT_EQ(page.find("does not need"), page.npos) << "it may need what the budget drops";
+}
+
+/// The plan with the table, beside a set without it.
+scene::Plan with_table(double bound, double worst) {
+  auto p = plan();
+  auto& m = p.materials.at(0);
+  m.forms[scene::Effect::compensation] = scene::Form::tabulated;
+  m.speedup = 1 / 74.0;
+  m.margin = {0.0075, 3.6};
+  scene::JudgedSet set{m.forms, 1.28, 175, {}, m.margin, 0.06};
+  set.forms[scene::Effect::compensation] = scene::Form::kulla_conty;
+  set.error.bound = bound, set.error.worst = worst, set.error.upper = 0.47;
+  m.without_table = set;
+  return p;
+}
+/// Where sentences stand in a page's text.
+std::size_t place_of(const std::string& page, const std::string& sentence) {
+  const auto at = page.find(sentence);
+  EXPECT_NE(at, page.npos) << sentence;
+  return at;
+}
+
+TEST(PlanPage, SaysWhatRejectsTheNearestSetWithoutTheTable) {
+  GONIO_MANY_FITS();
+  auto page = plan_page_html(plastic_scene(), with_table(0.0079, 2));
+  place_of(page,
+           "No forms that shaders have keep the tolerance for red plastic with a plan's margin: it "
+           "needs the light between facets as a table, and takes 74\u202f× the time.");
+  place_of(page,
+           "The nearest set without the table (Kulla and Conty's lobe, 99 % of the points within "
+           "ΔE2000 0.47) may exceed the limit at 0.79 % of all points, and 0.75 % is allowed");
+  page = plan_page_html(plastic_scene(), with_table(0.001, 5.6));
+  place_of(page, "0.47) differs by 5.6 at its worst point, and 3.6 is allowed");
+}
+
+TEST(PlanPage, DoesNotNeedTheTableThatABudgetBought) {
+  GONIO_MANY_FITS();
+  auto p = with_table(0.001, 1.7);
+  p.budget = scene::Budget{300, 218, 0.06, true};
+  const auto page = plan_page_html(plastic_scene(), p);
+  EXPECT_EQ(page.find("No forms that shaders have"), page.npos);
+  EXPECT_EQ(page.find("needs the light between facets"), page.npos);
+  EXPECT_LT(place_of(page, "The plan of red plastic keeps the light between facets as a table"),
+            place_of(page,
+                     "A set without the table keeps the tolerance, too (Kulla and Conty's "
+                     "lobe, 99 % of the points within ΔE2000 0.47, 1.28 ns)."));
+}
+
+TEST(PlanPage, SaysFirstThatNothingKeepsTheTolerance) {
+  GONIO_MANY_FITS();
+  auto p = with_table(0.86, 1.5);
+  auto& m = p.materials.at(0);
+  p.holds = m.holds = false;
+  m.checked.bound = 0.53, m.checked.worst = 1;
+  const auto page = plan_page_html(plastic_scene(), p);
+  const auto broken = place_of(page,
+                               "No set of forms keeps ΔE2000 1 for red plastic with a plan's "
+                               "margin: this is the closest plan.");
+  EXPECT_LT(broken, place_of(page, "The plan of red plastic may exceed the limit at 53 % of all"));
+  EXPECT_LT(broken, place_of(page, "light between facets as a table"));
+  EXPECT_EQ(page.find("No forms that shaders have"), page.npos) << "the table does not, either";
+  p.budget = scene::Budget{0.1, 3, 4.1, false};
+  const auto poor = plan_page_html(plastic_scene(), p);
+  EXPECT_LT(place_of(poor, "Even the cheapest forms take"), place_of(poor, "a table, which no"));
+}
+
+TEST(PlanPage, CallsTimesThatAClockCannotTellApartTheSame) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  for (const double ratio : {1.03, 0.97}) {
+    p.materials[0].speedup = ratio;
+    const auto page = plan_page_html(plastic_scene(), p);
+    place_of(page, "red plastic takes as long as with all effects.");
+    EXPECT_EQ(page.find("makes red plastic"), page.npos);
+  }
+  EXPECT_EQ(scenes::speed(1.03), "as fast");
+  EXPECT_EQ(scenes::speed(1 / 6.3), "6.3\u202f× as slow");
+}
+
+TEST(PlanPage, SaysWhichMarginAPlanKeeps) {
+  GONIO_MANY_FITS();
+  place_of(plan_page_html(plastic_scene(), plan()),
+           "at most 0.75 % may exceed the limit, and the worst may differ by 3.6.");
 }
 
 TEST(PlanPage, NamesTheCostThatNoSetBeats) {
@@ -184,7 +271,8 @@ TEST(PlanPage, NamesTheNumberByWhichACheaperSetFailed) {
   scene::Judgement error;
   error.worst = 4.51, error.bound = 0.001;
   m.passed_over = 26;
-  m.failed = scene::JudgedSet{m.front[0].forms, 1.29, 40, error, 0.009, 3.6};
+  m.failed = scene::JudgedSet{m.front[0].forms, 1.29, 40, error, {0.009, 3.6}, 0};
+  m.margin = m.failed->margin;
   m.front[0].failed = {4.51, 0.001};
   auto page = plan_page_html(plastic_scene(), p);
   EXPECT_NE(page.find("The cheapest of them (40 operations) differs by 4.6 at its worst point, and "
@@ -201,7 +289,7 @@ TEST(PlanPage, SaysThatNoOtherSetWasFound) {
   GONIO_MANY_FITS();
   auto p = plan();
   p.materials.at(0).only_unseen = true;
-  EXPECT_NE(plan_page_html(plastic_scene(), p).find("No other set keeps the tolerance both"),
+  EXPECT_NE(plan_page_html(plastic_scene(), p).find("No other set keeps the tolerance where"),
             std::string::npos);
 }
 

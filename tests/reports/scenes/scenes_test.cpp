@@ -304,7 +304,9 @@ TEST(ScenesFindings, BlameTheTableOnlyWhereAPlanKeepsIt) {
                                     "The plan is slower than all effects of the material for chalk "
                                     "under front light: it takes 20 times as long.");
   ASSERT_NE(at, f.sentences.end());
-  EXPECT_EQ(at[1], "Only the tabulated light between facets keeps the tolerance there.");
+  EXPECT_EQ(at[1],
+            "No set of forms without the tabulated light between facets keeps the tolerance there "
+            "with a plan's margin.");
   EXPECT_EQ(at[2],
             "The plan is slower than all effects of the material for the material that needs "
             "everything under rim light: it takes 1.4 times as long.");

@@ -65,6 +65,31 @@ TEST(Budget, GivesWhatIsLeftToThoseWhoErrTooMuch) {
       << "the nearest that fits";
 }
 
+TEST(Budget, GivesWhatIsLeftToThoseWhoBreakTheToleranceByTheirWorstPoint) {
+  const Sharer lost{0.5, {{1, 4.1}, {100, 0.2}}}, saved{0.5, {{1, 0.8, true}, {4, 0.9}}};
+  EXPECT_EQ(share_out({lost, saved}, 3, 1).choice, (std::vector<std::size_t>{0, 1}));
+  EXPECT_EQ(share_out({lost, saved}, 2, 1).choice, (std::vector<std::size_t>{0, 0}))
+      << "more than there is";
+}
+
+TEST(Budget, TakesTheLowestRankOfThoseThatAreAsFast) {
+  const auto with = [](Choice second) {
+    return std::vector<Sharer>{{0.5, {{1, 4.1}, {100, 0.2}}},
+                               {0.5, {{1.27, 0.52, false, 0.04, 3}, second, {9, 0.1}}}};
+  };
+  const auto taken = [&](const Choice& second, double budget_ns = 3) {
+    return share_out(with(second), budget_ns, 1).choice[1];
+  };
+  EXPECT_EQ(taken({1.28, 0.53, false, 0.04, 2}), 1U)
+      << "it errs by more, but by no more than enough";
+  EXPECT_EQ(taken({1.28, 0.53, false, 0.04, 4}), 0U);
+  EXPECT_EQ(taken({1.28, 1.01, false, 0.04, 2}), 0U) << "it errs by too much";
+  EXPECT_EQ(taken({1.28, 0.53, true, 0.04, 2}), 0U) << "it breaks the tolerance";
+  EXPECT_EQ(taken({1.44, 0.53, false, 0.04, 2}), 0U) << "it is slower";
+  EXPECT_EQ(taken({1.28, 0.53, false, 0.04, 2}, 1.137), 0U) << "it takes more than the budget";
+  EXPECT_NEAR(share_out(with({1.28, 0.53, false, 0.04, 2}), 3, 1).ns, 1.14, 1e-12);
+}
+
 TEST(Budget, TakesTheCheapestWhereNothingFits) {
   const auto all = some_sharers(3, 3, 4);
   const auto s = share_out(all, 0.5);

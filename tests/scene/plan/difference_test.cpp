@@ -1,5 +1,7 @@
 #include "scene/plan/difference.h"
 
+#include <algorithm>
+
 #include <gtest/gtest.h>
 
 namespace gonio::scene {
@@ -38,6 +40,38 @@ TEST(Judgement, CountsWhatIsBeyondTheLimit) {
   values.assign(1000, 0.2);
   std::fill_n(values.begin(), 8, 1.5);
   EXPECT_FALSE(judge(values, Tolerance{}).keeps(Tolerance{}));  // 99.2 % of 1000 prove no 99 %
+}
+
+TEST(Judgement, BreaksATolerancesQuantileOnlyByMorePointsThanThatLeaves) {
+  const auto with = [](std::size_t exceeding) {
+    std::vector<double> values(1000, 0.2);
+    std::fill_n(values.begin(), exceeding, 1.5);
+    return judge(values, Tolerance{});
+  };
+  EXPECT_FALSE(with(8).holds(Tolerance{}));
+  EXPECT_FALSE(with(8).breaks(Tolerance{})) << "too few points to show either";
+  EXPECT_TRUE(with(11).breaks(Tolerance{}));
+  EXPECT_TRUE(with(8).breaks({.max = 1.4}));
+  EXPECT_FALSE(with(2).breaks(Tolerance{}));
+}
+
+TEST(Margin, IsTakenByTheWorstPointOrByTheShareBeyondTheLimit) {
+  const Margin m{0.0075, 3.6};
+  Judgement j;
+  j.bound = 0.015, j.worst = 1.8;
+  EXPECT_FALSE(m.is_kept(j));
+  EXPECT_DOUBLE_EQ(m.taken(j), 2);
+  EXPECT_FALSE(m.is_taken_by_worst(j));
+  j.worst = 10.8;
+  EXPECT_DOUBLE_EQ(m.taken(j), 3);
+  EXPECT_TRUE(m.is_taken_by_worst(j));
+  j.bound = 0.0075, j.worst = 3.6;
+  EXPECT_TRUE(m.is_kept(j));
+  j.worst = 3.7;
+  EXPECT_FALSE(m.is_kept(j));
+  j.worst = 0;
+  EXPECT_TRUE((Margin{0.0075, 0}).is_kept(j));
+  EXPECT_DOUBLE_EQ((Margin{0.0075, 0}).taken(j), 1);
 }
 
 }  // namespace

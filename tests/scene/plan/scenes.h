@@ -1,12 +1,15 @@
 #pragma once
 /// \file
-/// Scenes of one sphere, made in memory.
+/// Scenes of one sphere, made in memory, and their plans.
 
+#include <algorithm>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "brdf/model/model.h"
 #include "scene/description/scene.h"
+#include "scene/plan/plan.h"
 
 namespace gonio::scene::test {
 
@@ -81,6 +84,31 @@ inline Material everything() {
 }
 inline std::vector<Material> six() {
   return {satin_gold(), chalk(), red_plastic(), car_paint(), brushed_aluminium(), everything()};
+}
+
+/// Fewer points than by default: what these tests ask is not close.
+inline PlanOptions quick() {
+  return {.samples = 2048, .fresh = 16'384, .directions = 16, .cost = Cost::operations};
+}
+
+inline MaterialPlan planned(const Material& m, std::vector<Light> lights, Tolerance t = {}) {
+  Scene s = sphere(m, std::move(lights));
+  s.tolerance = t;
+  return plan_scene(s, quick()).materials.at(0);
+}
+inline std::vector<std::string> kept(const MaterialPlan& p) {
+  std::vector<std::string> names;
+  for (const auto& e : p.effects)
+    if (e.keep) names.emplace_back(name_of(e.effect));
+  return names;
+}
+inline bool keeps(const MaterialPlan& p, std::string_view effect) {
+  const auto names = kept(p);
+  return std::ranges::find(names, effect) != names.end();
+}
+/// Two lights on the viewer's side.
+inline std::vector<Light> two_lights() {
+  return {light({0.5, 0.6, 0.62}, 2), light({-0.7, 0.2, 0.69}, 2)};
 }
 
 }  // namespace gonio::scene::test
