@@ -69,7 +69,7 @@ TEST(PlanCommand, HoldsOnlyWhereAVerificationIsLikelyToAgree) {
   const auto& m = plan["materials"]["plastic"];
   EXPECT_GT(m["exceeding_bound"], m["most_exceeding"]);
   EXPECT_LE(m["exceeding_bound"], 0.01);
-  const auto v = gonio(f, "verify scene.json plan.json");
+  const auto v = gonio(f, "verify scene.json plan.json --samples 4096");
   EXPECT_EQ(v.code, 1);
   EXPECT_NE(v.out.find("plastic: is not shown to hold  "), v.out.npos) << v.out;
   EXPECT_EQ(v.out.find("is broken"), v.out.npos) << "the share itself is within the quantile";
