@@ -58,10 +58,10 @@ TEST(Judgement, BreaksATolerancesQuantileOnlyByMorePointsThanThatLeaves) {
 TEST(Margin, IsTakenByTheWorstPointOrByTheShareBeyondTheLimit) {
   const Margin m{0.0075, 3.6};
   Judgement j;
-  j.bound = 0.015, j.worst = 1.8;
+  j.bound = 0.015, j.worst = 5.4;
   EXPECT_FALSE(m.is_kept(j));
   EXPECT_DOUBLE_EQ(m.taken(j), 2);
-  EXPECT_FALSE(m.is_taken_by_worst(j));
+  EXPECT_FALSE(m.is_taken_by_worst(j)) << "which takes 1.5 of it";
   j.worst = 10.8;
   EXPECT_DOUBLE_EQ(m.taken(j), 3);
   EXPECT_TRUE(m.is_taken_by_worst(j));
