@@ -360,7 +360,7 @@ std::string unit_of(const scene::Tolerance& t) {
 
 /// What a set exceeds that a plan may not.
 std::string exceeded(const scene::Judgement& j, const scene::Margin& margin, bool bounded) {
-  if (margin.is_taken_by_worst(j))
+  if (bounded ? margin.is_taken_by_worst(j) : j.worst > margin.most_worst)
     return fmt::format("differs by {} at its worst point, and {} is allowed", rounded_up(j.worst),
                        rounded_down(margin.most_worst));
   return bounded ? fmt::format(

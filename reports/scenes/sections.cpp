@@ -40,7 +40,7 @@ Section plans(const ScenesRows& all) {
       row.push_back(r ? Cell{speed(r->speedup_float),
                              {},
                              fmt::format("{}{} against double. {}",
-                                         r->holds ? "" : "No set of forms keeps the tolerance. ",
+                                         r->holds ? "" : "Not shown to hold on fresh points. ",
                                          speed(r->speedup),
                                          r->kept.empty() ? "Keeps nothing" : "Keeps " + r->kept),
                              "big"}
@@ -60,7 +60,7 @@ Section plans(const ScenesRows& all) {
           plain(all.tolerance.max),
           std::ranges::all_of(all.rows, &SceneRow::holds)
               ? ""
-              : " Where no set of forms does, the nearest stands here, and says so."),
+              : " Where none is shown to hold, the nearest stands here, and says so."),
       {t},
       "plans"};
 }

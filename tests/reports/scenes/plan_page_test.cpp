@@ -1,6 +1,7 @@
 #include "reports/scenes/plan_page.h"
 
 #include <algorithm>
+#include <limits>
 #include <string>
 
 #include "many_fits.h"
@@ -227,6 +228,15 @@ TEST(PlanPage, BoundsNothingOfALobeThatNoWalkIsKnownOf) {
             page.npos);
   EXPECT_NE(page.find(", of red plastic; the worst"), page.npos);
   EXPECT_NE(page.find("so that is no bound"), page.npos);
+  p.holds = wax.holds = false;
+  wax.checked.bound = std::numeric_limits<double>::infinity(), wax.checked.worst = 5;
+  EXPECT_NE(plan_page_html(plastic_scene(), p)
+                .find("The plan of wax differs by 5 at its worst point, and 3.6 is allowed."),
+            std::string::npos);
+  wax.checked.worst = 2;
+  EXPECT_NE(plan_page_html(plastic_scene(), p)
+                .find("The plan of wax exceeds the limit at too many points."),
+            std::string::npos);
 }
 
 TEST(PlanPage, WritesTheQuantileWithAllItsDigits) {
