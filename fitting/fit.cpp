@@ -285,7 +285,7 @@ FitResult fit_and_judge(const Table& t,
   watch.lap("misfit_ms");
   const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u,
                                           t.truth ? std::vector<double>() : lost_below(table));
-  if (!lack.moved_by_scale.empty()) leave_unbounded_by_scale(p, u);
+  if (!lack.moved_by_scale.empty()) leave_unbounded_by_scale(p, f.model.values, u);
   keep_to_what_is_seen(table, p, f.model.values, lack.misfit, u);
   watch.lap("limits_ms");
   for (std::size_t i = 0; i < in_order.size(); ++i)
@@ -356,7 +356,7 @@ FitResult fit_and_judge(const Table& t,
     facts.no_f = facts.no_f || w.of_unit;
     facts.no_scale = facts.no_scale || w.of_scale;
     if (!w.guess.empty()) guesses.emplace_back(d.warnings.size(), w.guess);
-    d.warnings.push_back(std::move(w.text));
+    d.warnings.push_back(w.text + (o.metric == Metric::l2_cosine ? "" : w.metric));
   }
   facts.odd_angle = lack.odd_angle;
   facts.outliers = lack.outliers;

@@ -298,9 +298,8 @@ void add_fit(CommandLine& line) {
   c.flag("--as-one", o->as_one, "Several files are one sample's table: one fit of all");
   c.options(o->how);
   c.option("--models", o->models,
-           "Models to compare in place of one fit: A,B,C, or all for the usual ones. Says which to "
-           "take, by the incident "
-           "angles held out of each fit")
+           "Models to compare in place of one fit: A,B,C, or all for the usual ones, or all,A for "
+           "these and A. Says which to take, by the incident angles held out of each fit")
       .delimiter(',');
   c.option("-o,--output", o->output,
            "The result as JSON; of many, the folder for theirs and for summary.csv and .html. "

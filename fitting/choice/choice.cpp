@@ -144,13 +144,15 @@ std::string floor_in_words(const ModelChoice& choice) {
 }
 
 std::vector<std::string> models_asked(std::vector<std::string> models) {
-  if (models == std::vector<std::string>{"all"})
-    models.assign(usual_models().begin(), usual_models().end());
-  if (models.size() > 1 && std::ranges::find(models, "all") != models.end())
-    throw wrong_usage("--models: 'all' stands by itself");
   std::set<std::string_view> met;
   for (const auto& m : models)
     if (!met.insert(m).second) throw wrong_usage(fmt::format("--models: '{}' is there twice", m));
+  const auto usual = usual_models();
+  if (const auto all = std::ranges::find(models, "all"); all != models.end()) {
+    models.erase(all);
+    std::erase_if(models, [&](const auto& m) { return std::ranges::find(usual, m) != usual.end(); });
+    models.insert(models.begin(), usual.begin(), usual.end());
+  }
   for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table
     std::vector<Setting> none;
     compose(resolve_preset(parse_model(m), none), 1);
@@ -219,7 +221,10 @@ ModelChoice compare_models(const Table& t,
     if (!(is_answered_by_a_fit(w) &&
           std::ranges::any_of(choice.rows, [](const auto& r) { return r.compared && !r.misses; })))
       choice.warnings.push_back(w);
-  for (auto& w : value_warnings(columns.facts(t))) choice.warnings.push_back(w.whole());
+  for (auto& w : value_warnings(columns.facts(t))) {
+    if (options.metric == Metric::l2_cosine) w.metric.clear();
+    choice.warnings.push_back(w.whole());
+  }
   auto& rows = choice.rows;
   if (refused && std::ranges::none_of(rows, &ModelRow::compared)) std::rethrow_exception(refused);
   const ModelRow* nearest = least(rows, [](const auto& r) { return r.log_rms; });
@@ -340,9 +345,10 @@ Advice advise(const ModelChoice& choice) {
     a.beware.push_back(fmt::format("It is not near the table: typically off by a factor of {:.3g}.",
                                    std::exp(take->log_rms)));
   if (!take->parameters_at_bound.empty())
-    a.beware.push_back(fmt::format("{} {} at the end of what it may be: the model lacks something.",
-                                   fmt::join(take->parameters_at_bound, ", "),
-                                   take->parameters_at_bound.size() == 1 ? "is" : "are"));
+    a.beware.push_back(
+        fmt::format("{} {}: the model lacks something.", fmt::join(take->parameters_at_bound, ", "),
+                    take->parameters_at_bound.size() == 1 ? "is at the end of its range"
+                                                          : "are at the ends of their ranges"));
   return a;
 }
 

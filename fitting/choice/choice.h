@@ -54,8 +54,8 @@ std::string floor_in_words(const ModelChoice&);
 
 /// Models that are compared where `all` is asked for.
 std::span<const std::string_view> usual_models();
-/// Models that `--models` names: `all` is the usual ones.
-/// \throws Error  wrong_usage of `all` beside others, of a model that is there twice, of a word that no model has
+/// Models that `--models` names: `all` is the usual ones, which others follow that are named beside it.
+/// \throws Error  wrong_usage of a model that is there twice, of a word that no model has
 std::vector<std::string> models_asked(std::vector<std::string> names);
 
 /// Fits of each model, judged side by side:

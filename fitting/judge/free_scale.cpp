@@ -112,16 +112,16 @@ std::vector<double> moved_by_scale(const Table& t, const Problem& p, const Fitte
   }
 }
 
-void leave_unbounded_by_scale(const Problem& p, Uncertainty& u) {
+void leave_unbounded_by_scale(const Problem& p, std::span<const double> values, Uncertainty& u) {
   for (const auto& q : p.start.model.parameters)
     for (std::size_t s = q.first; is_linear(q.name) && s < q.first + q.count; ++s) {
       if (!p.free.mask()[s]) continue;
       const std::size_t i = p.free.index(s);
       auto& v = u[i];
       if (v.status != ParameterStatus::free) continue;
-      v.status = ParameterStatus::unbounded;
       v.low = p.bounds.low[i], v.high = p.bounds.high[i];
-      v.reason = "best value at this scale; the model meets the table better at another";
+      v.leave_unbounded("at this scale", p.bounds.at_end(i, values[s]),
+                        "the model meets the table better at another");
     }
 }
 

@@ -32,7 +32,7 @@ std::vector<std::string> with_weights(const FitOptions&, std::span<const std::st
 std::vector<double> moved_by_scale(const Table&, const Problem&, const Fitted&, double here);
 
 /// Takes the bounds from kd and weights of a fit whose table is of another scale.
-void leave_unbounded_by_scale(const Problem&, Uncertainty&);
+void leave_unbounded_by_scale(const Problem&, std::span<const double> values, Uncertainty&);
 
 /// Factor on a table's values that brings kd and weights of its fit into their ranges.
 double working_factor(const Table&);

@@ -27,9 +27,7 @@ constexpr std::size_t most_neighbours =
 
 /// True of a slot whose value stands at the end of what it may be.
 bool is_at_bound(const Problem& p, std::span<const double> values, std::size_t slot) {
-  const std::size_t i = p.free.index(slot);
-  const double low = p.bounds.low[i], high = p.bounds.high[i], near = 1e-7 * (high - low);
-  return values[slot] <= low + near || values[slot] >= high - near;
+  return p.bounds.at_end(p.free.index(slot), values[slot]);
 }
 
 /// Fills in what the table itself shows of the noise of its values.

@@ -202,7 +202,7 @@ bool add_models(Steps& steps,
   if (simplest != found.end() && simplest->first <= as_well * found[0].first) found = {*simplest};
   for (std::size_t k = 0; k < std::min(few, found.size()); ++k)
     steps.add_model(found[k].second,
-                    fmt::format("is typically off by a factor of {} instead of {}",
+                    fmt::format("is typically off by a factor of {} instead of {} on a sample",
                                 typical_factor(found[k].first), typical_factor(here)));
   return true;
 }

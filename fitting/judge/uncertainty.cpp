@@ -11,6 +11,8 @@
 #include "fitting/judge/arrow_inverse.h"
 #include "number/distributions.h"
 
+#include <fmt/format.h>
+
 namespace gonio {
 namespace {
 
@@ -226,10 +228,7 @@ Determined find_determined(const ArrowMatrix& bread,
   const auto range = [&](std::size_t i) { return bounds.high[i] - bounds.low[i]; };
   const auto effect = [&](std::size_t i) { return bread(i, i) * range(i) * range(i); };
   double strongest = 0;
-  const auto at_bound = [&](std::size_t i) {
-    const double near = 1e-7 * range(i);
-    return x[i] <= bounds.low[i] + near || x[i] >= bounds.high[i] - near;
-  };
+  const auto at_bound = [&](std::size_t i) { return bounds.at_end(i, x[i]); };
   for (std::size_t i = 0; i < n; ++i)
     if (!at_bound(i)) strongest = std::max(strongest, effect(i));
   std::vector<std::size_t> known;
@@ -350,6 +349,11 @@ void ParameterVerdict::keep_limit(ParameterStatus side, double bound, std::strin
   std_error = low = high = not_known;
   limit = bound;
   reason = std::move(why);
+}
+
+void ParameterVerdict::leave_unbounded(const char* best, bool at_end, const char* why) {
+  status = ParameterStatus::unbounded;
+  reason = fmt::format("best value {}{}; {}", best, at_end ? ", at the end of its range" : "", why);
 }
 
 Uncertainty wider(Uncertainty a, const Uncertainty& b) {

@@ -54,6 +54,9 @@ struct ParameterVerdict {
   void forget(std::string why);
   /// Leaves a one-sided 95 % bound.  \param side  upper_limit or lower_limit
   void keep_limit(ParameterStatus side, double bound, std::string why);
+  /// Keeps the value, which nothing bounds.
+  /// \param best    what it is the best value of   \param at_end  whether it stands at the end of its range
+  void leave_unbounded(const char* best, bool at_end, const char* why);
   /// Ends of the 95 % interval about the unknown's value; NaN without a standard error.
   double low_end(double value) const { return std::isnan(low) ? value - t * std_error : low; }
   double high_end(double value) const { return std::isnan(high) ? value + t * std_error : high; }

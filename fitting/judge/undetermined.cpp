@@ -239,10 +239,6 @@ std::optional<double> forget_needless_lobes(const Problem& p,
 bool is(const ParameterVerdict& v, ParameterStatus status) {
   return v.status == status;
 }
-void leave_unbounded(ParameterVerdict& v) {
-  v.status = ParameterStatus::unbounded;
-  v.reason = "best value for this model; the model is too wrong to bound it";
-}
 
 /// Unknowns of a lobe, by the number of the free slot.
 std::vector<std::size_t> unknowns_of(const Problem& p, const Lobe& l) {
@@ -352,6 +348,10 @@ bool find_undetermined(const Problem& p,
   }
   const auto leave_out_whole_ranges = [&] {
     using enum ParameterStatus;
+    const auto leave_unbounded = [&](std::size_t i) {
+      u[i].leave_unbounded("for this model", p.bounds.at_end(i, f.model.values[p.free.slots()[i]]),
+                           "the model is too wrong to bound it");
+    };
     for (std::size_t i = 0; i < n; ++i) {
       if (std::isnan(u[i].std_error) || u[i].status == ParameterStatus::unbounded) continue;
       const double x = f.model.values[p.free.slots()[i]];
@@ -359,7 +359,7 @@ bool find_undetermined(const Problem& p,
       const double some = 0.01 * (p.bounds.high[i] - p.bounds.low[i]);
       if (!(low <= p.bounds.low[i] + some && high >= p.bounds.high[i] - some)) continue;
       if (widened) {  // by what the model cannot describe: of this model it is still the best value
-        leave_unbounded(u[i]);
+        leave_unbounded(i);
         continue;
       }
       u[i].forget("its interval is as wide as its range");
@@ -368,7 +368,7 @@ bool find_undetermined(const Problem& p,
       const auto own = unknowns_of(p, lobe);
       if (std::ranges::any_of(own, [&](std::size_t i) { return is(u[i], unbounded); }))
         for (const std::size_t i : own)
-          if (is(u[i], free)) leave_unbounded(u[i]);
+          if (is(u[i], free)) leave_unbounded(i);
     }
   };
   leave_out_whole_ranges();

@@ -57,6 +57,13 @@ std::string only_negative_channel(const Table& t) {
                                                      : "";
 }
 
+/// True where a parameter has an interval that the data bound.
+bool has_intervals(const FitDocument& d) {
+  return std::ranges::any_of(d.parameters, [](const FittedParameter& p) {
+    return std::ranges::find(p.status, ParameterStatus::free) != p.status.end();
+  });
+}
+
 /// Bias of relative errors, of the values: the mean of 1/y is above 1/f by s² for noise of size s; 0 where
 /// it is little beside every interval.
 double telling_bias(const FitOptions& o, const FitDocument& d) {
@@ -117,7 +124,7 @@ std::vector<std::string> warnings(const FitOptions& o,
         "negative values{} betray a noise floor of {:.2g} 1/sr: masking them lifts what is fitted "
         "to dark places",
         only_negative_channel(t), d.log_offset));
-  for (auto& w : misfit_in_words(d.misfit)) all.push_back(std::move(w));
+  for (auto& w : misfit_in_words(d.misfit, has_intervals(d))) all.push_back(std::move(w));
   for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
   if (const auto& odd = f.odd_angle)
     all.push_back(fmt::format(
@@ -228,7 +235,7 @@ std::string deviation_in_words(double ratio) {
                      typical_factor(std::abs(std::log(ratio))));
 }
 
-std::vector<std::string> misfit_in_words(const Misfit& m) {
+std::vector<std::string> misfit_in_words(const Misfit& m, bool allowed_for) {
   if (!m.told) return {};
   std::string size = typical_factor(m.size);
   constexpr std::size_t every = 3;  // what they may follow
@@ -237,7 +244,7 @@ std::vector<std::string> misfit_in_words(const Misfit& m) {
     size += std::string(k == 0 ? ", varying " : " and ") +
             (m.follows[k].starts_with("grazing") ? "at " : "with ") + m.follows[k];
   std::vector<std::string> all{"beyond noise the model is off by a factor of " + size +
-                               "; intervals allow for it"};
+                               (allowed_for ? "; intervals allow for it" : "")};
   if (const auto& c = m.worst_cell)
     all.push_back(fmt::format(
         "the largest systematic deviation is near theta_h {:.2g}°, theta_d {:.2g}°: "

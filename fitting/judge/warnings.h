@@ -58,7 +58,8 @@ bool returns_too_much(const Physics&);
 std::vector<std::string> physics_in_words(const Physics&);
 
 /// Sentences of a misfit that is told: its size with the angles that it follows, and its place.
-std::vector<std::string> misfit_in_words(const Misfit&);
+/// \param allowed_for  whether a parameter has an interval, which allows for it
+std::vector<std::string> misfit_in_words(const Misfit&, bool allowed_for);
 /// How far a model is from a table at one place: "too bright by a factor of 1.52".  \param ratio  of model to table
 std::string deviation_in_words(double ratio);
 

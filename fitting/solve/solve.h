@@ -14,6 +14,12 @@ using NormalEquationsAt = std::function<NormalEquations(const std::vector<double
 
 struct Bounds {
   std::vector<double> low, high;
+
+  /// True of a value of the i-th unknown that stands at an end of its range.
+  bool at_end(std::size_t i, double x) const {
+    const double near = 1e-7 * (high[i] - low[i]);
+    return x <= low[i] + near || x >= high[i] - near;
+  }
 };
 
 /// Way to a minimum; where it lies is in the unknowns themselves.

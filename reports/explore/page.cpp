@@ -5,11 +5,12 @@
 #include <filesystem>
 #include <optional>
 
-#include "base/base64.h"
+#include "base/base85.h"
 #include "base/error.h"
 #include "base/json/reader.h"
 #include "base/sha256.h"
 #include "base/text.h"
+#include "brdf/model/presets.h"
 #include "reports/explore/assets.h"
 #include "reports/page/page.h"
 #include "table/format/formats.h"
@@ -24,11 +25,18 @@ std::string file_name_in(const std::string& path) {
   return std::filesystem::path(path).filename().string();
 }
 
+/// Name of a model that a person gave: its file's, or what a shipped one is called; "" of terms.
+std::string name_given(const std::string& model) {
+  if (!file_in(model).empty()) return file_name_in(model);
+  const Preset* const shipped = find_preset(model);
+  return shipped ? std::string(shipped->about.title) : "";
+}
+
 Json page_json(const ExploredModel& m) {
   Json values = Json::object();
   for (const auto& [name, v] : named_values(m.model.model)) values[name] = v;
   return {{"kind", "model"},
-          {"name", file_in(m.name).empty() ? "" : file_name_in(m.name)},
+          {"name", name_given(m.name)},
           {"spec", to_text(m.model.model.model.spec)},
           {"channels", m.model.channels},
           {"values", values},
@@ -101,14 +109,16 @@ std::string explore_page_html(const std::vector<Explored>& all, bool reads) {
   std::string body = fmt::format(
       "{}<script type=\"application/json\" id=\"explored\">{}</script>\n"
       "<script type=\"text/plain\" id=\"module\">{}</script>\n",
-      assets::explore_html, data, base64(assets::models_wasm_gz));
+      assets::explore_html, data, base85(assets::models_wasm_gz));
   if (reads)
     body += fmt::format(
         "<script type=\"text/plain\" id=\"worker\">{}</script>\n"
         "<script type=\"text/plain\" id=\"fit-module\">{}</script>\n",
-        assets::worker_js, base64(assets::fit_wasm_gz));
+        assets::worker_js, base85(assets::fit_wasm_gz));
   return scripted_page("gonio explore", body, assets::explore_css,
-                       fmt::format("{}{}", assets::explore_js, assets::fitting_js), true);
+                       fmt::format("{}{}{}", assets::explore_js, assets::views_js,
+                                   assets::fitting_js),
+                       true);
 }
 
 }  // namespace gonio

@@ -53,10 +53,8 @@ std::string Surface::description() const {
   for (const auto& p : m->model.parameters)
     parameters.push_back(slider_of(p, std::span(m->values).subspan(p.first, p.count)));
   const std::string spec = to_text(m->model.spec);
-  const auto preset = std::ranges::find(presets(), spec, &Preset::spec);
-  const std::string called = preset == presets().end() ? spec : std::string(preset->about.id);
   return Json{{"spec", spec},
-              {"name", model_names(std::span(&called, 1)).front()},
+              {"name", model_names(std::span(&spec, 1)).front()},
               {"channels", m->model.channels},
               {"anisotropic", m->model.anisotropic},
               {"operations", operations_of(m->model).total()},

@@ -199,7 +199,10 @@ Json page_json(const ExploredTable& t) {
   // from.
   for (const auto& a : t.albedo)
     if (albedo.empty() || albedo.back()["theta_i"] != a.theta_i_deg)
-      albedo.push_back({{"theta_i", a.theta_i_deg}, {"value", a.albedo}});
+      albedo.push_back({{"theta_i", a.theta_i_deg},
+                        {"value", a.albedo},
+                        {"error", a.error},
+                        {"coverage", a.coverage}});
   std::string said = fmt::format(
       "{} values. The page holds them on a grid of {} × {} × {} half and difference angles: "
       "typically off by ×/÷ {:.3f}, and "
@@ -211,6 +214,7 @@ Json page_json(const ExploredTable& t) {
   return {{"kind", "table"},
           {"name", t.name},
           {"channels", t.channels},
+          {"channels_in_file", t.channels_in_file},
           {"sizes", explored_sizes},
           {"said", said},
           {"cuts", cuts},

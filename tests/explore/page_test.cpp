@@ -3,7 +3,9 @@
 #include <cmath>
 
 #include "base/base64.h"
+#include "base/base85.h"
 #include "base/file.h"
+#include "brdf/model/presets.h"
 #include "explore/surface.h"
 #include "fitting/result/document.h"
 #include "refusal.h"
@@ -33,20 +35,20 @@ std::vector<float> floats(const nlohmann::json& base64_text) {
 
 TEST(ExplorePage, HoldsTheModuleAndFetchesNothing) {
   const std::string html = explore_page_html({});
-  EXPECT_NE(html.find(base64(assets::models_wasm_gz)), html.npos);
+  EXPECT_NE(html.find(base85(assets::models_wasm_gz)), html.npos);
   EXPECT_EQ(assets::models_wasm_gz.substr(0, 2), "\x1f\x8b");
   EXPECT_NE(html.find("default-src 'none'; script-src 'unsafe-inline' 'wasm-unsafe-eval'"),
             html.npos);
-  EXPECT_LT(html.size(), 800'000U);
+  EXPECT_LT(html.size(), 750'000U);
   EXPECT_TRUE(explored_data(html)["items"].empty());
   EXPECT_EQ(html.find("id=\"fit-module\""), html.npos);
   const std::string app = explore_page_html({}, true);
-  EXPECT_NE(app.find(base64(assets::fit_wasm_gz)), app.npos);
+  EXPECT_NE(app.find(base85(assets::fit_wasm_gz)), app.npos);
   EXPECT_LT(app.size(), 2'300'000U);
   for (const char* load :
        {"fetch(", "XMLHttpRequest", "import(", "importScripts", "WebSocket", "sendBeacon",
         "new Image(", "innerHTML", "outerHTML =", "insertAdjacentHTML", "document.write", "eval("})
-    for (const auto script : {assets::explore_js, assets::fitting_js, assets::worker_js})
+    for (const auto script : {assets::explore_js, assets::views_js, assets::fitting_js, assets::worker_js})
       EXPECT_EQ(script.find(load), script.npos) << load;
   EXPECT_EQ(assets::explore_css.find("url("), assets::explore_css.npos);
 }
@@ -104,6 +106,7 @@ TEST(ExplorePage, TableWithFewSamplesFillsTheCellsThatItHas) {
   EXPECT_EQ(e.channels, (std::vector<std::string>{"a", "c", "e"}));
   EXPECT_HAS(explored_data(explore_page_html({e}))["items"][0]["said"].get<std::string>(),
              "Of 5 channels it shows a, c, e.");
+  EXPECT_EQ(explored_data(explore_page_html({e}))["items"][0]["channels_in_file"], 5);
   EXPECT_GT(e.covered, 0.9);
   // The same by a function between samples, which knows the file's channels by their numbers.
   Table defined = t;
@@ -124,6 +127,12 @@ TEST(ExplorePage, TableHasItsAlbedosWhereverTheLightCameFrom) {
   const auto points = [&] { return explored_data(explore_page_html({e}))["items"][0]["albedo"]; };
   const auto at_0 = points();
   EXPECT_EQ(at_0.size(), e.albedo.size());
+  // Each says how far it may be off, and how much of the hemisphere has samples.
+  for (std::size_t k = 0; k < at_0.size(); ++k) {
+    EXPECT_EQ(at_0[k]["error"], e.albedo[k].error);
+    EXPECT_EQ(at_0[k]["coverage"], e.albedo[k].coverage);
+    EXPECT_LT(at_0[k]["coverage"], 1);
+  }
   for (auto& a : e.albedo) a.phi_i_deg = 180;
   EXPECT_EQ(points(), at_0);
   // Several azimuths of one zenith angle are one point.
@@ -153,6 +162,9 @@ TEST(ExplorePage, FitHasItsDocument) {
   EXPECT_EQ(explored_data(explore_page_html({explore_model(
                 "lambert+ggx/smith_ggx.correlated/schlick", {}, 1)}))["items"][0]["name"],
             "");
+  // One that is shipped was named by whoever asked for it by that name.
+  EXPECT_EQ(explored_data(explore_page_html({explore_model("disney", {})}))["items"][0]["name"],
+            find_preset("disney")->about.title);
 }
 
 }  // namespace

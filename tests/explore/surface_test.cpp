@@ -187,13 +187,13 @@ TEST(Surface, KeepsWhatStaysWhenATermIsSwapped) {
   EXPECT_EQ(value("kd", 1), 0.1);
 }
 
-TEST(Surface, IsCalledAsPeopleCallItsModel) {
+TEST(Surface, IsCalledByItsTermsWhoeverShipsThem) {
   const auto name = [](const char* spec) {
     return nlohmann::json::parse(Surface(spec, "", 1).description())["name"];
   };
   EXPECT_EQ(name("lambert+ggx/smith_ggx.correlated/schlick"), "Lambert + GGX (Schlick)");
   for (const auto& p : presets())
-    EXPECT_EQ(name(std::string(p.about.id).c_str()), p.about.title) << p.about.id;
+    EXPECT_NE(name(std::string(p.about.id).c_str()), p.about.title) << p.about.id;
 }
 
 TEST(Surface, DescribesSlidersThatHoldTheirValuesForEveryTerm) {

@@ -32,8 +32,7 @@ void warn_of_offset(TableFacts& facts, std::vector<std::string>& all) {
   if (facts.negative_channel() || facts.negative_offset() == 0) return;
   all.push_back(
       fmt::format("negative values, typically -{:.2g} 1/sr, follow their neighbours: rather an "
-                  "offset than noise, "
-                  "perhaps too much dark signal taken off (--metric l2_cosine minds it less)",
+                  "offset than noise, perhaps too much dark signal taken off",
                   facts.negative_offset()));
 }
 
@@ -101,14 +100,19 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   const bool is_told = !cosine.empty();
   texts.insert(texts.end(), cosine.begin(), cosine.end());
   warn_of_negative_channel(facts, texts);
+  const std::size_t offset = texts.size();
   warn_of_offset(facts, texts);
+  const bool has_offset = texts.size() > offset;
   warn_of_shared_ends(facts, texts);
   const std::size_t of_unit = texts.size();
   if (!is_told) warn_of_reciprocity(facts, texts);
   warn_of_dark_channels(facts.table(), texts);
   warn_of_zeros(facts, texts);
   warn_of_sure_values(facts.table(), texts);
-  for (std::size_t k = 0; k < texts.size(); ++k) all.push_back({std::move(texts[k]), k < of_unit});
+  for (std::size_t k = 0; k < texts.size(); ++k) {
+    all.push_back({std::move(texts[k]), k < of_unit});
+    if (has_offset && k == offset) all.back().metric = " (--metric l2_cosine minds it less)";
+  }
   return all;
 }
 

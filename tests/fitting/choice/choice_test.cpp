@@ -131,6 +131,19 @@ TEST(ModelChoice, CountsHowFarAModelIsBehindInJackknifedErrorsOverBlocks) {
   }
 }
 
+TEST(ModelChoice, OfAllAndOthersIsOfTheUsualModelsThenOfTheOthersEachOnce) {
+  const auto usual = usual_models();
+  std::vector<std::string> expected(usual.begin(), usual.end());
+  EXPECT_EQ(models_asked({"all"}), expected);
+  EXPECT_EQ(models_asked({paint, "all"}), expected) << "one of the usual";
+  const std::string f90 = "lambert+gtr/smith_gtr.correlated/schlick.f90";
+  expected.insert(expected.end(), {f90, "disney"});
+  EXPECT_EQ(models_asked({f90, "all", gtr, "disney"}), expected);
+  EXPECT_EQ(models_asked({metal, f90}), (std::vector{metal, f90}));
+  EXPECT_HAS(test::refusal([] { models_asked({"all", "all"}); }, Exit::usage), "'all' is there twice");
+  EXPECT_HAS(test::refusal([] { models_asked({"all", "no_such_model"}); }, Exit::usage), "no_such_model");
+}
+
 TEST(ModelChoice, LeavesAModelThatCannotBeFittedInItsPlaceAndSaysWhy) {
   const std::string aniso = "ggx_aniso/smith_ggx_aniso.correlated/schlick";
   const Table t =
@@ -358,7 +371,10 @@ TEST(Advice, SaysWhatTheOneThatIsTakenDoesNotDo) {
   EXPECT_EQ(advise(c).beware,
             (std::vector<std::string>{
                 "It is not near the table: typically off by a factor of 2.5.",
-                "alpha is at the end of what it may be: the model lacks something."}));
+                "alpha is at the end of its range: the model lacks something."}));
+  c.rows[0].parameters_at_bound = {"f0", "f0_2"};
+  EXPECT_EQ(advise(c).beware[1],
+            "f0, f0_2 are at the ends of their ranges: the model lacks something.");
 }
 
 TEST(Advice, IsEmptyWhereNothingCouldBeCompared) {

@@ -379,6 +379,7 @@ TEST(Undetermined, AnIntervalAsWideAsTheRangeIsNoValueUnlessItIsTheMisfits) {
     for (std::size_t i = 0; i < 2; ++i) {
       EXPECT_EQ(u[i].status,
                 widened ? ParameterStatus::unbounded : ParameterStatus::not_identifiable);
+      EXPECT_EQ(u[i].reason.find("at the end of its range"), std::string::npos) << u[i].reason;
       EXPECT_FALSE(u[i].reason.empty());
     }
   }
@@ -394,6 +395,11 @@ TEST(Undetermined, WhatStandsAtABoundIsUnboundedWhereOnlyAMisfitLeavesItOpen) {
     find_undetermined(own.p, own.data, own.f, counted, widened, u);
     EXPECT_EQ(u[0].status, widened ? ParameterStatus::unbounded : ParameterStatus::not_identifiable)
         << u[0].reason;
+    if (widened) {
+      EXPECT_EQ(u[0].reason,
+                "best value for this model, at the end of its range; the model is too wrong to "
+                "bound it");
+    }
   }
 }
 

@@ -5,8 +5,10 @@
 #include <cmath>
 #include <functional>
 
+#include "fitting/choice/choice.h"
 #include "fitting/fit.h"
 #include "fitting/support.h"
+#include "table/paint.h"
 
 #include <gtest/gtest.h>
 
@@ -41,7 +43,7 @@ TEST(Warnings, SaysWhenTheModelDoesNotDescribeTheTable) {
   o.model = "lambert";
   const auto d = fit(t, o).document;
   EXPECT_GT(d.misfit.size, 0.5);
-  const auto words = misfit_in_words(d.misfit);
+  const auto words = misfit_in_words(d.misfit, false);  // no interval of a model so wrong
   EXPECT_FALSE(words.empty());
   EXPECT_TRUE(std::ranges::mismatch(words, d.warnings).in1 == words.end()) << "they come first";
   EXPECT_TRUE(fit_synthetic(metal, settings, {.layout = Layout::random}).document.warnings.empty());
@@ -68,21 +70,51 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   m.size = 0.084;
   m.follows = {"theta_h", "theta_d", "grazing angles"};
   m.worst_cell = {10, 22.5, 60, 75, 40, -0.3};
-  EXPECT_EQ(misfit_in_words(m),
+  EXPECT_EQ(misfit_in_words(m, true),
             (std::vector<std::string>{
                 "beyond noise the model is off by a factor of 1.088, "
                 "varying with every angle; intervals allow for it",
                 "the largest systematic deviation is near theta_h 16°, theta_d 68°: the model is "
                 "too dark by a factor of 1.43"}));
   m.follows = {"theta_h", "grazing angles"};
-  EXPECT_NE(misfit_in_words(m)[0].find("varying with theta_h and at grazing angles;"),
+  EXPECT_NE(misfit_in_words(m, true)[0].find("varying with theta_h and at grazing angles;"),
             std::string::npos);
   m.worst_cell->difference = 2.4;
-  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is too bright by a factor of 3.4"));
+  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": the model is too bright by a factor of 3.4"));
   m.worst_cell->difference = 1.0 / 150 - 1;
-  EXPECT_TRUE(misfit_in_words(m)[1].ends_with(": the model is too dark by a factor of 150"));
+  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": the model is too dark by a factor of 150"));
   m.told = false;
-  EXPECT_TRUE(misfit_in_words(m).empty());
+  EXPECT_TRUE(misfit_in_words(m, true).empty());
+}
+
+TEST(Warnings, SayThatIntervalsAllowForAMisfitOnlyWhereThereAreSome) {
+  FitDocument d;
+  d.misfit.told = true;
+  d.misfit.size = 0.5;
+  const double none = std::nan("");
+  const auto said = [&](ParameterStatus status, ParameterStatus other) {
+    d.parameters = {{"kd", {0.1, 0.1}, {1, 1}, {0, 0}, {1, 1}, {status, other}, {none, none}, {}}};
+    d.parameters[0].reason = {"", ""};
+    return warnings({}, Table{}, d, {})[0].ends_with("; intervals allow for it");
+  };
+  using enum ParameterStatus;
+  EXPECT_TRUE(said(unbounded, free));
+  for (const auto status : {unbounded, at_bound, fixed, not_identifiable, upper_limit})
+    EXPECT_FALSE(said(status, unbounded)) << static_cast<int>(status);
+}
+
+TEST(Warnings, NameNoMetricThatTheFitHas) {
+  Table t = test::painted(180, 0.05, 0.15);
+  for (double& f : t.values[0]) f -= 0.018;
+  for (const Metric metric : {Metric::log, Metric::l2_cosine}) {
+    FitOptions o;
+    o.metric = metric;
+    const auto all = fit(t, o).document.warnings;
+    EXPECT_TRUE(test::says(all, "rather an offset than noise"));
+    EXPECT_EQ(test::says(all, "--metric l2_cosine"), metric == Metric::log);
+    const auto compared = compare_models(t, o, std::vector<std::string>{"lambert"}).warnings;
+    EXPECT_EQ(test::says(compared, "--metric l2_cosine"), metric == Metric::log);
+  }
 }
 
 /// Numbers of a sentence: runs of digits, points, signs of powers.
