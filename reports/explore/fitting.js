@@ -95,10 +95,11 @@ const file_word = (name) => shell_word(name.startsWith("-") ? `./${name}` : name
 function command_of(name, columns, spec, { model, ...options }) {
   const words = [];
   if (columns) {
-    const { unit, cosine, ...rest } = columns, own = ["forward", "scale", "skip"], map = Object.entries(rest).filter(([key]) => !own.includes(key));
+    const { unit, cosine, cosines, ...rest } = columns, own = ["forward", "scale", "skip"], map = Object.entries(rest).filter(([key]) => !own.includes(key));
     words.push("gonio columns", file_word(name), "--map", ...map.map(([role, column]) => shell_word(`${role}=${column}`)));
     if (unit === "radians") words.push("--radians");
     if (cosine) words.push("--cosine");
+    if (cosines) words.push(`--cosines=${cosines.join(",")}`);
     for (const key of own) if (rest[key] !== undefined) words.push(`--${key} ${shell_word(String(rest[key]))}`);
     words.push("--quiet &&");
   }
@@ -132,7 +133,8 @@ function fitted(text, name, table, optimum, id, command) {
     if (!key.startsWith("roughness") && (p.status ?? p.ci95)) parameters[key] = v.map((_, c) => [status[c] ?? "free", ...(status[c] === "upper_limit" ? [null, limit[c]] : status[c] === "lower_limit" ? [limit[c], null] : ci[c] ?? [null, null]), reason[c] ?? ""]);
   }
   const has_optimum = Object.keys(optimum).length > 0, without = has_optimum ? unknown : [...unknown, ...limited];
-  const said = [!without.length ? "" : has_optimum ? `Not known: ${without.join(", ")}. The value here is one of many that fit as well.` : `The fit has no value for ${without.join(", ")}: it begins with another.`,
+  const only = table && n < channels_in_file(table) ? d.channels.join(", ") : "";
+  const said = [only && `Fitted to channel ${only}.`, !without.length ? "" : has_optimum ? `Not known: ${without.join(", ")}. The value here is one of many that fit as well.` : `The fit has no value for ${without.join(", ")}: it begins with another.`,
     has_optimum && limited.length ? `The fit has only a limit of ${limited.join(", ")}. The value here is where it ended.` : ""].filter(Boolean).join(" ");
   const fit = { id, parameters, said, ...(n > channels.length ? { all: n } : {}) };
   if (d.residuals) {
@@ -140,7 +142,7 @@ function fitted(text, name, table, optimum, id, command) {
     if (input.mask) options.mask = [input.mask];
     if (d.metric && d.metric !== "log") options.metric = [d.metric];
     if (d.robust && d.robust !== "none") options.robust = [d.robust];
-    Object.assign(fit, { file, log_rms: d.residuals.log_rms, metric: d.metric ?? "log", converged: d.solver?.termination === "converged", warnings: d.warnings ?? [], next: (d.next ?? []).slice(0, 2), meets: Boolean(d.misfit?.tested && !d.misfit.told && !d.warnings?.length), left_out: input.mask ?? "", copies: input.masked?.copied > 0, only: table && n < channels_in_file(table) ? d.channels.join(", ") : "", command: command ?? command_of(file, null, d.model, options) });
+    Object.assign(fit, { file, log_rms: d.residuals.log_rms, metric: d.metric ?? "log", converged: d.solver?.termination === "converged", warnings: d.warnings ?? [], next: (d.next ?? []).slice(0, 2), meets: Boolean(d.misfit?.tested && !d.misfit.told && !d.warnings?.length), left_out: input.mask ?? "", copies: input.masked?.copied > 0, only, command: command ?? command_of(file, null, d.model, options) });
   }
   documents.set(id, text);
   return { name, spec: d.model, values, channels, fit: said || d.residuals || Object.keys(parameters).length ? fit : null };
@@ -175,7 +177,7 @@ function advice(said) {
 const model_of = (said) => /^--model (\S+)/.exec(said)?.[1];
 function fit_panel({ about, changed, fit }) {
   const head = `${about.name} misses ${fit.file}${fit.only ? `, channel ${fit.only},` : ""}${fit.left_out ? `, without ${fit.left_out},` : ""} by a typical factor of ${times(fit.log_rms)}; ${fit.converged ? "the fit converged" : "the fit did not converge"}.${changed ? " You have moved its values since." : ""}`;
-  return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...(fit.meets ? [make("p", {}, "What is left is no more than the table's own noise.")] : []), ...(fit.unseen ? [make("p", {}, fit.unseen)] : []), ...fit.next.map(advice), ...(fit.next.some(model_of) ? [make("p", { class: "muted" }, "Factors beside Try are of a sample of the table that the models are fitted to. “Compare models” ranks them, too, by incident angles held out.")] : []), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
+  return [make("h2", {}, "Fit"), make("p", {}, head), ...fit.warnings.map((w) => line("Beware", w)), ...(fit.meets ? [make("p", {}, "What is left is no more than the table's own noise.")] : []), ...(fit.unseen ? [make("p", {}, fit.unseen)] : []), ...fit.next.map(advice), ...(fit.next.some((said) => said.includes("on a sample")) ? [make("p", { class: "muted" }, "The factors beside Try are of models fitted to a sample of the table. “Compare models” ranks these models, too, by incident angles held out.")] : []), make("p", {}, make("code", {}, fit.command)), ...saver(fit.id, `${fit.file}.fit.json`)];
 }
 function comparison_panel(d) {
   const number = (x, digits = 3) => (Number.isFinite(x) ? Number(x.toPrecision(digits)).toString() : "–"), factor = (x) => (Number.isFinite(x) ? times(x) : "–");
@@ -214,12 +216,12 @@ async function fit_table(model, more = "") {
   $("words").value = text_of_words, view.table = table.name;
   if (found.channels.length < table.channels.length) view.channel = Math.max(table.channels.indexOf(found.channels[0]), 0);  // where it is drawn over what it was fitted to
   take_fit(found, found.channels.length === item.channels.length ? item : null);  // beside it, where the fit is of some channels
-  const before = item.fit, now = found.fit, alike = before?.file === now.file && before.metric === now.metric && before.left_out === now.left_out;
+  const before = item.fit, now = found.fit, alike = before?.file === now.file && before.metric === now.metric && before.left_out === now.left_out && (before.only ?? "") === now.only;
   const compared_to = !alike ? "" : now.log_rms === before.log_rms ? "as before" : `${now.log_rms < before.log_rms ? "better" : "worse"} than ${times(before.log_rms)} before`;
   say(own && other && own !== other ? `Fitted, but ${table.name} is not the file that this page was made with.`
     : !before?.file || before.file !== now.file ? `Fitted to ${now.file}.`
     : alike ? `Fitted: typical factor ${times(now.log_rms)}, ${compared_to}.`
-    : `Fitted: typical factor ${times(now.log_rms)}. The fit before had another metric or other samples, so its ${times(before.log_rms)} does not compare.`);
+    : `Fitted: typical factor ${times(now.log_rms)}. The fit before had another metric, other samples or channels, so its ${times(before.log_rms)} does not compare.`);
 }
 async function compare_models() {
   const [table] = some_pair(), { model, ...words } = asked(), id = new_id();
@@ -306,7 +308,7 @@ function show_columns(source, d) {
     box.hidden = true;
     await read_table({ ...source, columns, side: JSON.stringify({ schema: "gonio.table/1", columns }) });
   });
-  box.replaceChildren(make("h2", {}, `The columns of ${source.name}`), ...(c.said ?? []).map((s) => make("p", {}, s)),
+  box.replaceChildren(make("h2", {}, `The columns of ${source.name}`), ...(c.said ?? []).map((s) => make("p", {}, s.replace(/one angle for all is --map \S+/, "its list has “one angle for all”"))),
     make("div", { class: "controls" }, ...[...roles_of_columns, ...(values.length ? values : ["f"]), "channel"].map(pick),
       make("label", { title: "180, or 0 where azimuths are counted from the way that the light goes" }, "mirror direction at φo − φi = ", number("columns-forward", map.forward ?? 180), "°"), make("label", { title: "1/π of a radiance factor" }, "f is the values times ", number("columns-scale", map.scale ?? 1)), tick("in-radians", "angles in radians", map.unit === "radians"), tick("with-cosine", "values are f cos θo", Boolean(map.cosine)), again));
 }

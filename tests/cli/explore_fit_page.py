@@ -138,6 +138,10 @@ def of_the_program(page):
     page.ask("$('words').value = '', $('mask').value = 'theta_o >'")
     said, program = press(page, "fit"), run("fit", "t.csv", "--mask", "theta_o >").stderr.strip()
     expect(said and program.endswith(said), f"a wrong mask: {said}; the program says {program}")
+    # Samples that a fit leaves out are spoken of only where it leaves some out.
+    beside = lambda fit: page.ask(f"beside_fit({{ fit: {json.dumps(fit)} }}, {{ name: 't.csv' }})")
+    expect(beside({"file": "t.csv", "left_out": "theta_o > 70", "copies": True}) == ", with those that the fit leaves out by theta_o > 70 or as copies" and beside({"file": "t.csv", "left_out": "", "copies": False}) == "" and beside({"file": "u.csv", "left_out": "x"}) == "", "what a fit leaves out")
+    page.ask("$('mask').value = ''")
 
 
 def command_makes_the_same(page, what):
@@ -229,6 +233,29 @@ def of_files(page):
     fitted(page, "a MERL table that was dropped", "m.binary")
 
 
+def limits_and_unknowns(page):
+    """A limit is something that is known."""
+    document = {"model": model, "channels": ["f"], "parameters": {"alpha": {"value": None, "status": "upper_limit", "limit": 0.002}, "kd": {"value": [None], "status": ["not_identifiable"]}, "f0": {"value": [0.04], "status": ["free"]}}}
+    said = lambda optimum: page.ask(f"fitted({json.dumps(json.dumps(document))}, 'x', null, {json.dumps(optimum)}, 'x').fit.said")
+    of_the_page, alone = said({"alpha": [0.01], "kd": [0.2], "f0": [0.04]}), said({})
+    expect(of_the_page == "Not known: kd. The value here is one of many that fit as well. The fit has only a limit of alpha. The value here is where it ended.", f"a limit: {of_the_page}")
+    expect(alone == "The fit has no value for kd, alpha: it begins with another.", f"a limit of a document: {alone}")
+    document["parameters"]["kd"] = {"value": [0.2], "status": ["free"]}
+    expect(said({"alpha": [0.01]}).startswith("The fit has only a limit of alpha."), "a limit only")
+
+
+def where_the_answer_is(page):
+    """In one column the answer stands below the button, else among the views."""
+    place = "$('fitted').previousElementSibling.id"
+    expect(page.ask(place) == "facts", f"the answer stands among the views: {page.ask(place)}")
+    page("Emulation.setDeviceMetricsOverride", width=420, height=900, deviceScaleFactor=1, mobile=False)
+    page.wait(f"{place} === 'fitting'")
+    expect(page.ask("$('fitted').getBoundingClientRect().top - $('fit').getBoundingClientRect().bottom") < 250, "in one column it stands below its button")
+    expect(page.ask("document.documentElement.scrollWidth") <= 420, "and fits there")
+    page("Emulation.setDeviceMetricsOverride", width=1400, height=900, deviceScaleFactor=1, mobile=False)
+    page.wait(f"{place} === 'facts'")
+
+
 def of_a_large_file(page):
     """The program puts no file of more than 16 MiB into a page: a person gives it."""
     run("explore", "m.binary", model, "-o", "large.html")
@@ -262,6 +289,25 @@ def columns(page):
     command_makes_the_same(page, "columns that a person named")
     page.ask("$('copy-address').click()")
     page.wait("$('status').textContent.includes('odd.csv')")
+    # Nothing of it is known, and all that the program may be told has a place.
+    page.open("about:blank", "true")
+    page.open((folder / "app.html").as_uri(), idle)
+    (folder / "letters.csv").write_text("A;B;C;D\n" + "".join(f"{out};{phi};{nm};{0.3 + 0.001 * out + 0.1 * (nm == 450)}\n" for nm in (450, 550, 650) for out in range(0, 80, 8) for phi in (0, 90, 180)))
+    drop_and_wait(page, "letters.csv")
+    said = page.ask("$('columns').innerText")
+    expect("--map" not in said and "one angle for all" in said, f"what is not known is said in the page's own words: {said}")
+    expect(page.ask("$('angle-theta_i').hidden"), "an angle that is not one for all asks for no number")
+    page.ask("for (const [role, value] of Object.entries({ theta_i: '=', theta_o: 'A', phi_o: 'B', channel: 'C', f: 'D' })) { const s = document.querySelector(`#columns select[data-role=${role}]`); s.value = value, s.dispatchEvent(new Event('change')); }")
+    expect(page.ask("!$('angle-theta_i').hidden"), "one that is does")
+    page.ask("$('angle-theta_i').value = '30', $('columns-forward').value = '0', $('columns-scale').value = '0.5'; say('waiting'); document.querySelector('#columns button').click()")
+    page.wait("$('status').textContent !== 'waiting' && job === null", 60)
+    expect(page.ask("items[0].channels") == ["450", "550", "650"], f"channels are rows of a column: {page.ask('$(`status`).textContent')}")
+    read, written = page.ask("JSON.parse(items[0].data.side).columns"), run("columns", "letters.csv", "--map", "theta_i=30", "theta_o=A", "phi_o=B", "channel=C", "f=D", "--forward", "0", "--scale", "0.5")
+    program = json.loads((folder / "letters.csv.gonio.json").read_text())["columns"]
+    expect(read == program, f"columns as said in the page: {read}, the program writes {program} {written.stderr}")
+    fitted(page, "one angle for all", "letters.csv")
+    (folder / "letters.csv.gonio.json").unlink()
+    command_makes_the_same(page, "one angle for all")
 
 
 def troubles(page):
@@ -311,10 +357,33 @@ def models_and_saved(page):
     expect(all(f"As good: {m}" in said for m in d["as_good"]) and all(f"But: {m}" in said for m in d["disagreement"]) and "--models all" in said, f"all that a comparison says is shown: {said}")
     page.ask("compared.as_good = ['lambert'], compared.disagreement = ['BIC prefers eon.'], show_panel()")
     expect("As good: lambert" in page.ask("$('fitted').innerText") and "But: BIC prefers eon." in page.ask("$('fitted').innerText"), "what is as good, and who disagrees")
+    without = page.ask("[...document.querySelectorAll('#fitted tbody tr')].map((tr) => [tr.children[2].textContent, tr.querySelector('button') !== null])")
+    expect(any(not take for _, take in without) and all(take == (factor != "–") for factor, take in without), f"only what was fitted can be taken: {without}")
+    expect("order of their factor on incident angles held out" in said, "how it ranks is said")
     page.ask("document.querySelector('#fitted .best button').focus(); document.querySelector('#fitted .best button').click()")
     page.wait("$('status').textContent.startsWith('Fitted')", 120)
+    expect("On incident angles held out of its fit it is off by" in page.ask("$('fitted').innerText"), "a model that was taken says how it does on unseen angles")
+    worse = "(before) => unseen_angles(judged.key, 'lambert', before)"
+    expect(", worse than " in page.ask(f"({worse})(judged.rows[0][0])") and "worse" not in page.ask(f"({worse})('lambert')") and page.ask("unseen_angles('another', 'lambert', 'eon')") == "", "and whether that is worse than before")
     page.ask("$('undo').click()")
     expect(page.ask("$('fitted').innerText.includes('Models compared')"), "a model that was taken is given back")
+    # What fails leaves everything as it was.
+    before = page.ask("[state(), past.length]")
+    page.ask("say('waiting'); carefully(() => fit_table(undefined, '--bounds nothing=0,1'))()")
+    page.wait("$('status').textContent !== 'waiting' && job === null", 60)
+    expect(page.ask("$('status').className === 'failed'") and page.ask("[state(), past.length]") == before, "advice that fails leaves no option and no step behind")
+    # The models that are here, and those that are advised, are compared, too.
+    here, advised = "lambert+ggx/smith_ggx.separable/schlick", "lambert+gtr/smith_ggx.separable/schlick"
+    page.ask("$('redo').click(); $('term-Masking').value = 'smith_ggx.separable', $('term-Masking').onchange()")
+    press(page, "fit")
+    page.ask(f"items[active].fit.next = ['--model {advised} is nearer', '8 angles more']")
+    said = press(page, "choose", 300)
+    rows = page.ask("compared.rows.map((row) => row[0])")
+    expect(said == "Compared." and here in rows and advised in rows and "those on this page, and those that Try offers" in page.ask("$('fitted').innerText"), f"what is here is compared, too: {said} {rows}")
+    others = page.ask("compared.command")
+    expect(f"--models all,{here},{advised} " in others, f"and so does the command: {others}")
+    program = json.loads(run("fit", "small.csv", "--models", f"all,{here},{advised}", "--json").stdout)
+    expect(page.ask("compared.recommended") == program["recommended"] and {m["model"] for m in program["models"]} == set(rows), f"as the program does: {page.ask('compared.recommended')}")
     page.ask("$('redo').click()")
     for k in range(8):
         (folder / f"more{k}.csv").write_bytes((folder / "small.csv").read_bytes())
@@ -340,7 +409,7 @@ def models_and_saved(page):
 
 with Browser(1400, 900) as page:
     sys.excepthook = lambda *error: (print("\n".join(complaints)), sys.__excepthook__(*error))
-    for part in (of_the_program, table_only, of_files, of_a_large_file, columns, troubles, models_and_saved):
+    for part in (of_the_program, where_the_answer_is, limits_and_unknowns, table_only, of_files, of_a_large_file, columns, troubles, models_and_saved):
         part(page)
     complaints += page.problems(folder.as_uri())
 print("\n".join(complaints))

@@ -221,6 +221,54 @@ def address_goes_round(page):
     expect(page.ask("['sphere-1', 'slice-1', 'sphere-0'].map(look)") == pictures, "and the pictures")
 
 
+def keys_on_pictures(page):
+    """Arrow keys do on a picture what a pointer does there."""
+    page.ask("view.light = [0.1, 0.2, Math.sqrt(0.95)], view.lamp = 'rim light', $('sphere-1').focus()")
+    before = page.ask("look('sphere-1')")
+    page.key("keyDown", "ArrowRight")
+    page.key("keyDown", "ArrowDown")
+    settle(page)
+    light = page.ask("view.light")
+    expect(abs(light[0] - 0.2) < 1e-9 and abs(light[1] - 0.1) < 1e-9 and abs(sum(x * x for x in light) - 1) < 1e-9, f"arrow keys move a sphere's light: {light}")
+    expect(page.ask("view.lamp === '' && document.activeElement.id === 'sphere-1'") and page.ask("look('sphere-1')") != before, "and the focus stays on it")
+    for _ in range(15):
+        page.key("keyDown", "ArrowRight")
+    expect(page.ask("view.light[2] > 0 && Math.hypot(...view.light) < 1.0001"), "to the rim and no further")
+    page.ask("$('slice-1').focus()")
+    page.key("keyDown", "ArrowRight")
+    first = page.ask("Number($('slices').querySelector('.readout').dataset.at)")
+    page.key("keyDown", "ArrowRight")
+    page.key("keyDown", "ArrowDown")
+    expect(page.ask("Number($('slices').querySelector('.readout').dataset.at)") == first + 97, "and the reading of a slice, a cell at a time")
+    expect(page.ask("[...document.querySelectorAll('canvas[tabindex]')].every((c) => c.getAttribute('aria-label').includes('arrow keys'))"), "and say so")
+
+
+def albedos(page):
+    """A table's albedo that it hardly knows looks like that."""
+    page.wait("albedos.curves.some((c) => c.points)")
+    page.ask("Object.assign(items[0], { kept: items[0].albedo, albedo: [[10, 0.3, 0.01, 1], [20, 0.3, 0.2, 1], [30, 0.3, 0, 0.5], [40, 0.3, 0, 1]].map(([theta_i, v, error, coverage]) => ({ theta_i, value: [v, v, v], error, coverage })) }), evaluate_albedo(), draw_albedo()")
+    hollow, bars = page.ask("[[...$('albedo').querySelectorAll('circle')].map((c) => c.classList.contains('hollow')), [...$('albedo').querySelectorAll('.error')].map((e) => e.getBoundingClientRect().height)]")
+    expect(hollow == [False, True, True, False], f"albedos that the table hardly knows are hollow: {hollow}")
+    expect(len(bars) == 2 and bars[1] > 5 * bars[0] > 0, f"errors have bars: {bars}")
+    page.ask("items[0].albedo = items[0].kept, evaluate_albedo(), draw_albedo()")
+    expect(page.ask("items[0].albedo.every((a) => a.error >= 0 && a.coverage > 0)"), "the program says how well it knows them")
+
+
+def channels(page):
+    """What has more channels than are shown is not said to have as many."""
+    page.ask("items[active].fit = null, items[0].channels_in_file = 5, show_facts()")
+    expect("in 3 of 5 channels." in page.ask("$('facts').innerText"), f"channels of a table that are not shown: {page.ask('$(`facts`).innerText')[:200]}")
+    page.ask("items[active].fit = null, $('copy-json').click()")
+    page.wait("$('status').textContent.includes('It holds 3 of 5 channels, r g b.')")
+    values = page.ask("values_of(items[active])")
+    four = {"channels": ["r", "x", "g", "b"], "parameters": {name: {"value": [1, 0.25, 1, 1]} for name in values}}
+    page.ask(f"documents.set('four', {json.dumps(json.dumps(four))}), Object.assign(items[active], {{ changed: false, fit: {{ id: 'four', all: 4, parameters: {{}}, said: '' }} }})")
+    whole, colours = json.loads(page.ask("whole_document()")), {name: v for name, v in values.items() if len(v) == 3}
+    expect(colours and whole["channels"] == ["r", "x", "g", "b"] and all(whole["parameters"][name]["value"] == [v[0], 0.25, *v[1:]] for name, v in colours.items()), f"a copy has all channels of a fit: {whole}")
+    page.ask("items[active].changed = true")
+    expect(page.ask("whole_document()") is None, "until a value moves that the others do not follow")
+
+
 def copies(page):
     page.ask("choose(document.getElementById('theta'), 45)")
     settle(page)
@@ -259,6 +307,10 @@ def names(page):
     page.open(address("plain.html"), ready)
     page.ask(page_tools)
     terms = page.ask("items[0].about.name")
+    for shipped in page.ask("catalogue.models.map((m) => m.title)"):
+        page.ask(f"become(materials().find(([n]) => n.startsWith({json.dumps(shipped)}))[0])")
+        expect(page.ask("items[0].about.name") != shipped and page.ask("label(items[0])").startswith(shipped), f"{shipped} is called so by whoever chose it, and its terms are no more than terms")
+    page.ask("$('reset').click()")
     expect(page.ask("label(items[0])") == terms, "what nobody named is called by its terms")
     page.ask("$('what').value = 'Red plastic', $('add').click()")
     settle(page)
@@ -380,6 +432,9 @@ def play(page):
     drags(page)
     address_goes_round(page)
     copies(page)
+    keys_on_pictures(page)
+    albedos(page)
+    channels(page)
     expect(page.ask("document.documentElement.scrollWidth") <= 1200, "not wider than its window")
     page("Emulation.setDeviceMetricsOverride", width=400, height=900, deviceScaleFactor=1, mobile=False)
     settle(page)
