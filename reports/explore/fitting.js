@@ -187,7 +187,7 @@ function comparison_panel(d) {
   });
   const head = make("tr", {}, ...["model", "typical factor on unseen angles", "of the fit", "BIC", "free"].map((t) => make("th", { scope: "col" }, t)));
   return [make("h2", {}, `Models compared on ${d.file}`), ...(d.recommended ? [make("p", {}, d.none_fits ? "None fits; the nearest is " : "Take ", make("b", {}, d.recommended), `. ${d.reason ?? ""}`)] : []),
-    make("p", { class: "muted" }, `${d.beside ? "Compared are the usual models, those on this page, and those that Try offers for their fits. " : ""}They are in order of their factor on incident angles held out of each fit. A fit, and what Try says, counts the angles that it is fitted to.`),
+    make("p", { class: "muted" }, `${d.beside ? "Compared are the usual models, those on this page, and those that Try offers for their fits. " : ""}The first column is the factor on incident angles held out of each fit, and orders the list. A fit's own factor, and that beside Try, is of angles that were fitted.`),
     ...d.beware.map((w) => line("Beware", w)), ...d.as_good.map((m) => line("As good", m)), ...d.disagreement.map((w) => line("But", w)), ...(d.offset > 0 ? [make("p", {}, `These factors count values from ${shown(d.offset)} 1/sr on. A fit's own factor counts smaller ones in full.`)] : []),
     make("div", { class: "scroll" }, make("table", {}, make("thead", {}, head), make("tbody", {}, ...rows))), make("p", { class: "muted" }, "The program adds the colour difference of a rendered sphere and the speed of each: ", make("code", {}, d.command)), ...saver(d.id, `${d.file}.models.json`)];
 }

@@ -359,7 +359,7 @@ def models_and_saved(page):
     expect("As good: lambert" in page.ask("$('fitted').innerText") and "But: BIC prefers eon." in page.ask("$('fitted').innerText"), "what is as good, and who disagrees")
     without = page.ask("[...document.querySelectorAll('#fitted tbody tr')].map((tr) => [tr.children[2].textContent, tr.querySelector('button') !== null])")
     expect(any(not take for _, take in without) and all(take == (factor != "–") for factor, take in without), f"only what was fitted can be taken: {without}")
-    expect("order of their factor on incident angles held out" in said, "how it ranks is said")
+    expect("on incident angles held out of each fit, and orders the list" in said, "how it ranks is said")
     page.ask("document.querySelector('#fitted .best button').focus(); document.querySelector('#fitted .best button').click()")
     page.wait("$('status').textContent.startsWith('Fitted')", 120)
     expect("On incident angles held out of its fit it is off by" in page.ask("$('fitted').innerText"), "a model that was taken says how it does on unseen angles")
