@@ -109,7 +109,7 @@ def of_the_program(page):
     # What the last move said is gone with the next one, and a fit is better, worse, or neither.
     page.ask("$('redo').click()")
     expect(press(page, "fit").endswith(" as before."), f"a fit that is made again: {page.ask('$(`status`).textContent')}")
-    page.ask("swap([['lambert']])")
+    page.ask("(() => { const r = $('value-0'); r.value = 500; r.dispatchEvent(new Event('input')); r.dispatchEvent(new Event('change')); })()")
     expect(page.ask("$('status').textContent") == "", "a fit is not spoken of beside another model")
     page.ask("$('undo').click()")
     page.ask("$('words').value = '--fix alpha=0.9'")
