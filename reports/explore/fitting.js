@@ -304,7 +304,9 @@ function show_columns(source, d) {
     if ($("in-radians").checked) columns.unit = "radians";
     if ($("with-cosine").checked) columns.cosine = true;
     for (const [key, usual] of [["forward", 180], ["scale", 1]]) if ($(`columns-${key}`).value !== "" && Number($(`columns-${key}`).value) !== usual) columns[key] = Number($(`columns-${key}`).value);
-    for (const key of ["skip", "weight", "cosines"]) if (map[key] !== undefined) columns[key] = map[key];
+    // What was said of it besides, and has no place here, stays.
+    const asked_here = [...[...box.querySelectorAll("select[data-role]")].map((s) => s.dataset.role), "unit", "cosine", "forward", "scale"];
+    for (const [key, value] of Object.entries(map)) if (!asked_here.includes(key)) columns[key] = value;
     box.hidden = true;
     await read_table({ ...source, columns, side: JSON.stringify({ schema: "gonio.table/1", columns }) });
   });

@@ -292,7 +292,7 @@ def columns(page):
     # Nothing of it is known, and all that the program may be told has a place.
     page.open("about:blank", "true")
     page.open((folder / "app.html").as_uri(), idle)
-    (folder / "letters.csv").write_text("A;B;C;D\n" + "".join(f"{out};{phi};{nm};{0.3 + 0.001 * out + 0.1 * (nm == 450)}\n" for nm in (450, 550, 650) for out in range(0, 80, 8) for phi in (0, 90, 180)))
+    (folder / "letters.csv").write_text("A;B;C;D;E\n" + "".join(f"{out};{phi};{nm};{0.3 + 0.001 * out + 0.1 * (nm == 450)};{1 + out / 50}\n" for nm in (450, 550, 650) for out in range(0, 80, 8) for phi in (0, 90, 180)))
     drop_and_wait(page, "letters.csv")
     said = page.ask("$('columns').innerText")
     expect("--map" not in said and "one angle for all" in said, f"what is not known is said in the page's own words: {said}")
@@ -308,6 +308,15 @@ def columns(page):
     fitted(page, "one angle for all", "letters.csv")
     (folder / "letters.csv.gonio.json").unlink()
     command_makes_the_same(page, "one angle for all")
+    # What has no place in the page stays as it was said.
+    (folder / "letters.csv.gonio.json").write_text(json.dumps({"schema": "gonio.table/1", "columns": {"theta_i": "30", "theta_o": "A", "phi_o": "B", "channel": "C", "f": "D", "u_percent": "E", "cosines": [0, -1]}}))
+    drop_and_wait(page, "letters.csv", "letters.csv.gonio.json")
+    page.ask("$('columns-scale').value = '2'; say('waiting'); document.querySelector('#columns button').click()")
+    page.wait("$('status').textContent !== 'waiting' && job === null", 60)
+    read = page.ask("JSON.parse(items[0].data.side).columns")
+    expect(read == {"theta_i": "30", "theta_o": "A", "phi_o": "B", "channel": "C", "f": "D", "scale": 2, "u_percent": "E", "cosines": [0, -1]}, f"uncertainties and cosines stay: {read}")
+    expect("--cosines=0,-1 --scale 2" in page.ask("command_of('letters.csv', items[0].data.columns, 'lambert', {})"), "and stand in the command")
+    (folder / "letters.csv.gonio.json").unlink()
 
 
 def troubles(page):
