@@ -93,7 +93,8 @@ std::vector<double> moved_by_scale(const Table& t, const Problem& p, const Fitte
   try {
     Table scaled = t;
     scale_values(scaled, working_factor(t));
-    const Problem q = pose(scaled, with_weights(p.options));
+    const FitOptions weighted = with_weights(p.options);  // which the problem refers to
+    const Problem q = pose(scaled, weighted);
     const Sampling s = sampling_for(q, scaled, t.bins());
     const auto open = coarse_fit(q, s);
     if (!open || !(residual_statistics(open->model, s, coarse_samples).log_rms < far_less * here))
