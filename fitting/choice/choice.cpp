@@ -150,7 +150,8 @@ std::vector<std::string> models_asked(std::vector<std::string> models) {
   const auto usual = usual_models();
   if (const auto all = std::ranges::find(models, "all"); all != models.end()) {
     models.erase(all);
-    std::erase_if(models, [&](const auto& m) { return std::ranges::find(usual, m) != usual.end(); });
+    std::erase_if(models,
+                  [&](const auto& m) { return std::ranges::find(usual, m) != usual.end(); });
     models.insert(models.begin(), usual.begin(), usual.end());
   }
   for (const auto& m : models) {  // a word that nobody knows is wrong usage, whatever the table

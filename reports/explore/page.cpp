@@ -115,10 +115,9 @@ std::string explore_page_html(const std::vector<Explored>& all, bool reads) {
         "<script type=\"text/plain\" id=\"worker\">{}</script>\n"
         "<script type=\"text/plain\" id=\"fit-module\">{}</script>\n",
         assets::worker_js, base85(assets::fit_wasm_gz));
-  return scripted_page("gonio explore", body, assets::explore_css,
-                       fmt::format("{}{}{}", assets::explore_js, assets::views_js,
-                                   assets::fitting_js),
-                       true);
+  return scripted_page(
+      "gonio explore", body, assets::explore_css,
+      fmt::format("{}{}{}", assets::explore_js, assets::views_js, assets::fitting_js), true);
 }
 
 }  // namespace gonio

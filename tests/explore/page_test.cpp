@@ -48,7 +48,8 @@ TEST(ExplorePage, HoldsTheModuleAndFetchesNothing) {
   for (const char* load :
        {"fetch(", "XMLHttpRequest", "import(", "importScripts", "WebSocket", "sendBeacon",
         "new Image(", "innerHTML", "outerHTML =", "insertAdjacentHTML", "document.write", "eval("})
-    for (const auto script : {assets::explore_js, assets::views_js, assets::fitting_js, assets::worker_js})
+    for (const auto script :
+         {assets::explore_js, assets::views_js, assets::fitting_js, assets::worker_js})
       EXPECT_EQ(script.find(load), script.npos) << load;
   EXPECT_EQ(assets::explore_css.find("url("), assets::explore_css.npos);
 }

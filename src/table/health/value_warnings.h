@@ -17,7 +17,8 @@ struct ValueWarning {
                  ///< then
   bool of_scale = false;   ///< light: not of a table whose scale is free
   std::string guess = {};  ///< what unit that may be, which follows the text
-  std::string metric = {};  ///< which metric minds it less, which follows the text where that is not the fit's
+  std::string metric =
+      {};  ///< which metric minds it less, which follows the text where that is not the fit's
 
   std::string whole() const { return text + metric + guess; }
 };

@@ -140,8 +140,18 @@ TEST(ModelChoice, OfAllAndOthersIsOfTheUsualModelsThenOfTheOthersEachOnce) {
   expected.insert(expected.end(), {f90, "disney"});
   EXPECT_EQ(models_asked({f90, "all", gtr, "disney"}), expected);
   EXPECT_EQ(models_asked({metal, f90}), (std::vector{metal, f90}));
-  EXPECT_HAS(test::refusal([] { models_asked({"all", "all"}); }, Exit::usage), "'all' is there twice");
-  EXPECT_HAS(test::refusal([] { models_asked({"all", "no_such_model"}); }, Exit::usage), "no_such_model");
+  EXPECT_HAS(test::refusal(
+                 [] {
+                   models_asked({"all", "all"});
+                 },
+                 Exit::usage),
+             "'all' is there twice");
+  EXPECT_HAS(test::refusal(
+                 [] {
+                   models_asked({"all", "no_such_model"});
+                 },
+                 Exit::usage),
+             "no_such_model");
 }
 
 TEST(ModelChoice, LeavesAModelThatCannotBeFittedInItsPlaceAndSaysWhy) {
@@ -368,10 +378,9 @@ TEST(Advice, SaysWhatTheOneThatIsTakenDoesNotDo) {
   EXPECT_TRUE(advise(c).beware.empty());
   c.rows[0].log_rms = std::log(2.5);
   c.rows[0].parameters_at_bound = {"alpha"};
-  EXPECT_EQ(advise(c).beware,
-            (std::vector<std::string>{
-                "It is not near the table: typically off by a factor of 2.5.",
-                "alpha is at the end of its range: the model lacks something."}));
+  EXPECT_EQ(advise(c).beware, (std::vector<std::string>{
+                                  "It is not near the table: typically off by a factor of 2.5.",
+                                  "alpha is at the end of its range: the model lacks something."}));
   c.rows[0].parameters_at_bound = {"f0", "f0_2"};
   EXPECT_EQ(advise(c).beware[1],
             "f0, f0_2 are at the ends of their ranges: the model lacks something.");

@@ -221,7 +221,8 @@ TEST(NextSteps, OfModelsThatTakeUpLittleOfAMisfitNameTheNearestAsOneThatMissesTo
   d.misfit.size = 0.3;
   const auto named = steps(0.2);
   EXPECT_EQ(named.size(), 3U);
-  EXPECT_TRUE(named[0].ends_with(" is typically off by a factor of 1.22 instead of 1.36 on a sample"))
+  EXPECT_TRUE(
+      named[0].ends_with(" is typically off by a factor of 1.22 instead of 1.36 on a sample"))
       << named[0];
 }
 

@@ -80,7 +80,8 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   EXPECT_NE(misfit_in_words(m, true)[0].find("varying with theta_h and at grazing angles;"),
             std::string::npos);
   m.worst_cell->difference = 2.4;
-  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": the model is too bright by a factor of 3.4"));
+  EXPECT_TRUE(
+      misfit_in_words(m, true)[1].ends_with(": the model is too bright by a factor of 3.4"));
   m.worst_cell->difference = 1.0 / 150 - 1;
   EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": the model is too dark by a factor of 150"));
   m.told = false;
