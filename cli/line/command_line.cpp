@@ -21,7 +21,16 @@ Option& Option::required() {
 
 template <class T>
 Option& Option::in(T low, T high) {
-  option_->check(CLI::Range(low, high));
+  if constexpr (std::is_floating_point_v<T>)  // CLI's own takes nan, and writes six digits
+    option_->check(CLI::Validator(
+        [low, high](const std::string& word) {
+          const auto x = number_from<double>(word);
+          if (x && low <= *x && *x <= high) return std::string();
+          return fmt::format("Value {} not in range {:g} to {:g}", word, low, high);
+        },
+        fmt::format("{} in [{:g} - {:g}]", option_->get_type_name(), low, high)));
+  else
+    option_->check(CLI::Range(low, high));
   return *this;
 }
 template Option& Option::in(int, int);

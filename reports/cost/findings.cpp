@@ -80,7 +80,7 @@ class Sayings {
                  : std::string("no more");
     };
     said_.headline = fmt::format(
-        "Exact Smith in place of Schlick's k costs {} for a sample in cache; a whole GGX model "
+        "Exact Smith in place of Schlick's k costs {} in cache; a whole GGX model "
         "costs {} in {}.",
         text(*cache), text(*streaming), long_columns(r_.options));
   }

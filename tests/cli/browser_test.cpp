@@ -408,7 +408,7 @@ void add_commands(Pages& pages) {
             0);
   run("fit limit.csv --html limit.html", "limit.html");
   ASSERT_EQ(gonio(f,
-                  "synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.3 f0=0.05 kd=0.98 "
+                  "synth lambert+ggx/smith_ggx.correlated/schlick --set alpha=0.3 f0=0.15 kd=0.98 "
                   "--layout hemisphere -o bright.csv")
                 .code,
             0);

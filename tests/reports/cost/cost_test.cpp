@@ -482,7 +482,7 @@ TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNoMore) {
   const auto said = findings(rows);
   EXPECT_EQ(said.sentences[0], said.headline) << "before it tells of other programs";
   EXPECT_NE(said.headline.find(
-                " 0.23 ns more for a sample in cache; a whole GGX model costs no more in columns"),
+                " 0.23 ns more in cache; a whole GGX model costs no more in columns"),
             std::string::npos)
       << said.headline;
   for (auto& s : rows.switches)
