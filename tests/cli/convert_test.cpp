@@ -79,7 +79,10 @@ TEST(ConvertCommand, NeverTouchesItsInputAndLeavesNothingWhereItFails) {
   const auto before = read_bytes(f / "p.csv");
   const auto entries = f.entries();
   expect_one_line_each(f, 2,
-                       {{"convert p.csv p.csv", "is an input"},
+                       {{"convert a.csv o.exr --phi-d nan", "not in range 0 to 180"},
+                        {"convert a.csv o.exr --reach 1e13", "not in range 0 to 30"},
+                        {"columns a.csv --scale nan", "not in range 1e-12 to 1e+12"},
+                        {"convert p.csv p.csv", "is an input"},
                         {"convert p.csv ./p.csv", "is an input"},
                         {"convert p.csv p.csv.gonio.json --to csv", "is an input"},
                         {"convert p.csv other", "--to merl"},

@@ -12,6 +12,7 @@
 #include "base/quantile.h"
 #include "table/convert/isotropy.h"
 #include "table/convert/rgb_spectra.h"
+#include "table/format/exr_slice.h"
 #include "table/format/formats.h"
 #include "table/format/measured_by.h"
 #include "table/format/rgl/resample.h"
@@ -231,8 +232,18 @@ std::optional<std::size_t> bin_of(const Grid& g, const DirectionPair& p, double 
   return bin;
 }
 
+/// \param to  with its directions; gets values of all channels
 void gather(const Table& from, Table& to, double reach_deg, Loss& loss) {
+  if (from.values.size() > 1) {  // of one channel, which tells before all take their memory
+    Table one, there;
+    one.path = from.path, one.where = from.where, one.values = {from.values[0]};
+    one.channels = {from.channels[0]};
+    there.where = to.where;
+    Loss of_one;
+    gather(one, there, reach_deg, of_one);
+  }
   loss.method = Loss::Method::gathered;
+  to.values.assign(from.values.size(), Values(to.grid()->size(), kNone));
   const Grid& grid = *to.grid();
   const SampleAngles source(from), at(to);
   const double reach = reach_deg * degree;
@@ -378,7 +389,6 @@ Table on_a_grid(const Table& from, double reach_deg, Loss& loss) {
   grid.format = "mbsdf";
   grid.channels = from.channels;
   grid.where = mbsdf_grid(45, 90, from.bins());
-  grid.values.assign(from.values.size(), Values(grid.grid()->size(), kNone));
   gather(from, grid, reach_deg, loss);
   return grid;
 }
@@ -473,6 +483,11 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
   }
   const std::optional<Grid> grid =
       to_list || to_utia || to_zemax ? std::nullopt : std::optional(target_grid(source, o));
+  if (o.format == "exr" && grid->size() > most_slice_values / from.values.size())
+    throw wrong_usage(
+        fmt::format("an image slice of {} × {} pixels and {} channels has more than {} "
+                    "values: fewer --channels",
+                    grid->axes[0].size, grid->axes[1].size, from.values.size(), most_slice_values));
   Table& to = result.table;
   if (grid       ? source.grid() && *source.grid() == *grid
       : to_utia  ? has_utia_directions(source)
@@ -488,15 +503,16 @@ Conversion convert(const Table& source, const ConvertOptions& o) {
     else
       to.where = to_zemax ? zemax_directions(zemax_axes(source)) : utia_directions();
     to.channels = from.channels;
-    to.values.assign(from.values.size(),
-                     Values(grid ? grid->size() : to.list()->theta_i_deg.size(), kNone));
-    if (from.grid() || from.between)
+    if (from.grid() || from.between) {
+      to.values.assign(from.values.size(),
+                       Values(grid ? grid->size() : to.list()->theta_i_deg.size(), kNone));
       resample(from, to, to_zemax ? std::optional(mbsdf_grid(2, 2, Bins::centre)) : grid, loss);
-    else if (grid)
+    } else if (grid) {
       gather(from, to, o.reach_deg, loss);
-    else
+    } else {
       throw bad_input(from.path, "converting", "a list of other directions than UTIA's",
                       "a grid, or a format that says what lies between its samples");
+    }
   }
   to.format = o.format;
   if (to_utia) interpolate_utia(to);

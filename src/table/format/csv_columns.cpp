@@ -198,6 +198,12 @@ class Chooser {
     if (channels > static_cast<std::ptrdiff_t>(most_channels))
       lines_.fail("", fmt::format("{} channels", channels),
                   fmt::format("at most {}", most_channels));
+    constexpr std::size_t most_bytes = 1 << 20;
+    std::size_t bytes = 0;
+    for (const auto& role : roles) bytes += role.size();
+    if (bytes > most_bytes)
+      lines_.fail("", fmt::format("{} bytes of names of channels", bytes),
+                  fmt::format("at most {}", most_bytes));
   }
 
   /// Each column that is nothing else, and has a number in its name, has the values at that angle.

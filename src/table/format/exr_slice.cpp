@@ -21,7 +21,6 @@ namespace {
 constexpr const char *kLayout = "gonio:layout", *kPhi = "gonio:phi_d_rad",
                      *kChannels = "gonio:channels", *kTable = "gonio:table",
                      *kSlice = "image_slice";
-constexpr std::size_t kMost = std::size_t{1} << 24;  ///< values of a slice that is read
 
 std::string exr_name(const std::string& channel) {
   if (channel == "f") return "Y";
@@ -88,7 +87,7 @@ Table read_exr_slice(const std::string& path) {
     if (!known.insert(names.back()).second)
       throw bad_input(path, kChannels, names.back() + " twice", "each channel once");
   }
-  for (const auto& plane : read_exr(path, kMost, names).planes)
+  for (const auto& plane : read_exr(path, most_slice_values, names).planes)
     t.values.push_back(turned<Values>(plane, header.height));
   apply_metadata(t, path, attribute(kTable));
   return t;

@@ -17,7 +17,8 @@ namespace gonio {
 /// theta_h quadratic as in MERL, theta_d uniform.  \param phi_d  [rad]
 Grid image_slice_grid(std::size_t n_theta_h, std::size_t n_theta_d, double phi_d, Bins);
 
-/// Refuses more than 2^24 values.
+/// Of a slice that is read or written.
+inline constexpr std::size_t most_slice_values = std::size_t{1} << 24;
 Table read_exr_slice(const std::string& path);
 /// Values are rounded to float.
 void write_exr_slice(const Table&, const std::string& path);

@@ -327,6 +327,15 @@ TEST(Convert, MakesNoUtiaTableOfAListThatSaysNothingBetweenItsSamples) {
              "t.csv: converting: found a list of other directions than UTIA's");
 }
 
+TEST(Convert, MakesNoImageThatNobodyReads) {
+  Table t = csv_example();
+  t.values.assign(2072, t.values[0]);
+  t.channels.clear();
+  for (int c = 0; c < 2072; ++c) t.channels.push_back(std::to_string(c));
+  EXPECT_HAS(refusal([&] { convert(t, to("exr")); }, Exit::wrong_usage),
+             "90 × 90 pixels and 2072 channels has more than 16777216 values");
+}
+
 TEST(Convert, CutsASliceAndTakesItForTheWhole) {
   const Table t = wide_merl();
   auto o = to("exr");

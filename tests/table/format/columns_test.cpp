@@ -274,6 +274,11 @@ TEST(CsvFile, OfMoreChannelsThanATableHoldsIsRefused) {
                    "t.csv: line 1: found 4097 channels, expected at most 4096");
   expect_complaint(wide(most_channels + 1), R"("unit":"degrees")",
                    "t.csv: line 1: found 4097 channels, expected at most 4096");
+  std::string long_names = "theta_i,theta_o", row = "\n10,20";
+  for (int i = 0; i < 300; ++i)
+    long_names += ",f_" + std::to_string(i) + std::string(4000, 'x'), row += ",1";
+  expect_complaint(long_names + row + "\n", "",
+                   "bytes of names of channels, expected at most 1048576");
   std::string rows = "nm,theta_i,theta_o,f\n";
   for (std::size_t i = 0; i <= most_channels; ++i) rows += std::to_string(i) + ",10,20,1\n";
   expect_complaint(rows, R"("channel":"nm")",
