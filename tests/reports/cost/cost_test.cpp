@@ -481,9 +481,9 @@ TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNoMore) {
   for (auto& s : rows.switches) s.differs = true, s.ns = s.memory == "cache" ? 0.234 : -0.05;
   const auto said = findings(rows);
   EXPECT_EQ(said.sentences[0], said.headline) << "before it tells of other programs";
-  EXPECT_NE(said.headline.find(
-                " 0.23 ns more in cache; a whole GGX model costs no more in columns"),
-            std::string::npos)
+  EXPECT_NE(
+      said.headline.find(" 0.23 ns more in cache; a whole GGX model costs no more in columns"),
+      std::string::npos)
       << said.headline;
   for (auto& s : rows.switches)
     if (s.memory != "cache") s.differs = false, s.ns = -0.01, s.ns_spread = 0.25;

@@ -332,7 +332,7 @@ TEST(Convert, MakesNoImageThatNobodyReads) {
   t.values.assign(2072, t.values[0]);
   t.channels.clear();
   for (int c = 0; c < 2072; ++c) t.channels.push_back(std::to_string(c));
-  EXPECT_HAS(refusal([&] { convert(t, to("exr")); }, Exit::wrong_usage),
+  EXPECT_HAS(refusal([&] { convert(t, to("exr")); }, Exit::usage),
              "90 × 90 pixels and 2072 channels has more than 16777216 values");
 }
 
