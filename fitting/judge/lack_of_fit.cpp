@@ -65,15 +65,22 @@ double noise_square_of_nearest(const Left& left) {
 }
 /// That of the noise by the median of what neighbours differ by, which no highlight between them moves, or at most what is left of
 /// the nearest values of a list differs by, or what the table's own values show without a model; or NaN.
-double noise_square(const Left& left, TableFacts& facts) {
+/// \param all  mean square of what is left
+double noise_square(const Left& left, TableFacts& facts, double all) {
   std::vector<double> sizes;
   for (const auto& v : left.values)
     if (!std::isnan(v.noise)) sizes.push_back(std::abs(v.noise));
   const double of_lines =
       2 * sizes.size() > left.values.size() ? std::pow(1.4826 * median(sizes), 2) : std::nan("");
   const double of_list = left.turned ? noise_square_of_nearest(left) : std::nan("");
-  const auto& of_table = facts.noise().sigma;
-  return std::fmin(std::fmin(of_lines, of_list), of_table ? square(*of_table) : std::nan(""));
+  // The mean, as dark values have more than the typical one; known of some, so only where it is
+  // next to nothing of what is left.
+  constexpr double little = 0.1;
+  double squares = 0, samples = 0;
+  for (const auto& d : facts.noise_samples().all) squares += square(d.more), ++samples;
+  const double of_table =
+      samples > 0 && squares / samples < little * all ? squares / samples : std::nan("");
+  return std::fmin(std::fmin(of_lines, of_list), of_table);
 }
 
 /// The table without what the model has within a channel's noise, of which the lower half is lost; but what the table has far above
@@ -426,7 +433,7 @@ LackOfFit lack_of_all(
   m.tested = true;
   // What the noise does not explain, as far as it is known; else what the functions and the scales
   // do.
-  const double all = mean_square(left), noise = noise_square(left, facts);
+  const double all = mean_square(left), noise = noise_square(left, facts, all);
   const double seen = m.size > 0 ? m.size * m.size : 0;
   const double beyond =
       std::isnan(noise) ? seen + std::max(0.0, all - within) : std::max(seen, all - noise);

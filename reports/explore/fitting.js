@@ -36,7 +36,7 @@ const carefully = (call) => async (...what) => {
 };
 /// True of a model that can be fitted to a table: of as many channels, or once fitted to some of the table's.
 const fits = (model, table) => model.channels.length === table.channels.length || model.fit?.file === table.name;
-/// The table and the model that a fit is of: what is chosen, and beside it the table that it was fitted to, or that was last chosen or fitted, or else the first that is shown.
+/// The table and the model that a fit is of: what is chosen, and beside it the table that was last chosen or fitted, or that it was fitted to, or else the first that is shown.
 function fit_pair() {
   const chosen = items[active];
   if (!is_model(chosen)) {
@@ -44,7 +44,7 @@ function fit_pair() {
     return model && [chosen, model];
   }
   const beside = items.filter((table) => !is_model(table) && fits(chosen, table)), called = (name) => beside.find((table) => table.name === name);
-  const table = called(chosen.fit?.file) ?? called(view.table) ?? beside.find((one) => one.visible) ?? beside[0];
+  const table = called(view.table) ?? called(chosen.fit?.file) ?? beside.find((one) => one.visible) ?? beside[0];
   return table && [table, chosen];
 }
 function some_pair() {

@@ -47,7 +47,7 @@ TEST(Physics, OfATableWithoutHemispheresKnowsTheModelAlone) {
 
 TEST(Physics, IsWarnedOfWhereMoreLightComesBackThanArrived) {
   for (const auto& [settings, too_much] :
-       {std::pair{"alpha=0.3,f0=0.05,kd=0.98", true}, {"alpha=0.3,f0=0.05,kd=0.5", false}}) {
+       {std::pair{"alpha=0.3,f0=0.15,kd=0.98", true}, {"alpha=0.3,f0=0.05,kd=0.5", false}}) {
     // Uncoupled, a lobe adds to a diffuse reflectance of nearly 1.
     const Table t = synthesize(test::bind(paint, settings, 3), {.layout = Layout::hemisphere});
     const auto d = fit(t, {}).document;
