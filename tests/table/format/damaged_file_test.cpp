@@ -283,13 +283,13 @@ TEST(KlemsFile, NamesTheNodeThatIsMissingOrWrong) {
   EXPECT_COMPLAINT(with("<nPhis>3", "<nPhis>2"), "ScatteringData, number 10: found one more");
   EXPECT_COMPLAINT(with("\n0.", "\nO."), "ScatteringData, number 1: found 'O.");
   EXPECT_COMPLAINT(with("</Layer>", "</Lawyer>"), "expected well-formed XML");
-  std::string many;
+  std::string blocks;
   for (int k = 0; k < 90; ++k)
-    many += fmt::format(
+    blocks += fmt::format(
         "<AngleBasisBlock><ThetaBounds><LowerTheta>{}</LowerTheta><UpperTheta>{}"
         "</UpperTheta></ThetaBounds><nPhis>360</nPhis></AngleBasisBlock>",
         k, k + 1);
-  EXPECT_COMPLAINT(with("<AngleBasisBlock>", many + "<AngleBasisBlock>"), "more patches");
+  EXPECT_COMPLAINT(with("<AngleBasisBlock>", blocks + "<AngleBasisBlock>"), "more patches");
 }
 
 TEST(KlemsFile, MayBeNoXmlBomb) {
