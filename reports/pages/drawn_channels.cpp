@@ -5,8 +5,7 @@
 
 namespace gonio {
 
-std::vector<std::size_t> drawn_channels(std::size_t all) {
-  constexpr std::size_t most = 12;
+std::vector<std::size_t> drawn_channels(std::size_t all, std::size_t most) {
   std::vector<std::size_t> drawn;
   const std::size_t n = std::min(all, most);
   for (std::size_t k = 0; k < n; ++k) drawn.push_back(n == all ? k : k * (all - 1) / (n - 1));

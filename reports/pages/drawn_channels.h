@@ -11,8 +11,8 @@
 
 namespace gonio {
 
-/// All channels; of more than twelve as many, from the first to the last.
-std::vector<std::size_t> drawn_channels(std::size_t all);
+/// All channels; of more than `most` as many, from the first to the last.
+std::vector<std::size_t> drawn_channels(std::size_t all, std::size_t most = 12);
 
 /// A table and a model of the channels that are drawn; none where these are all.
 std::optional<Table> of_drawn_channels(const Table&);

@@ -12,6 +12,7 @@
 #include "image/display.h"
 #include "image/lit_sphere.h"
 #include "image/png.h"
+#include "reports/pages/drawn_channels.h"
 #include "reports/picture/figure.h"
 #include "table/lookup.h"
 
@@ -22,11 +23,7 @@ namespace {
 
 /// Which channels are shown: of many a few show the grey as well, in a fraction of the time.
 std::vector<std::size_t> shown_channels(const Table& t) {
-  const std::size_t all = t.channels.size(), shown = std::min<std::size_t>(all, 4);
-  std::vector<std::size_t> out;
-  for (std::size_t k = 0; k < shown; ++k)
-    out.push_back(shown == all ? k : k * (all - 1) / (shown - 1));
-  return out;
+  return drawn_channels(t.channels.size(), 4);
 }
 
 class Comparison {
