@@ -5,6 +5,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <utility>
 
 #include "base/error.h"
 #include "brdf/catalogue/registry.h"
@@ -263,16 +264,17 @@ FitResult fit_and_judge(const Table& t,
       return std::nan("");
     }
   };
+  std::optional<std::pair<double, std::optional<OtherUnit>>> last;  // asked for, and found
   const auto unit_of = [&](double here) {
     const auto as_given = [&](const Table& as, const FitOptions& with) {
       return attempt(as, with, with.model);
     };
-    return other_unit(t, o, here, as_given);
+    if (!last || last->first != here) last.emplace(here, other_unit(t, o, here, as_given));
+    return last->second;
   };
   TableFacts& table = columns.facts(t);
   LackOfFit lack = lack_of_fit(sampling, p, f, a.counts.samples, table);
-  // What scales of single angles take up is another unit's where one takes up more: then these are
-  // no instrument's.
+  // Scales of single angles are no instrument's where another unit takes up more than they do.
   if (!lack.misfit.told && !lack.gains.empty() && unit_of(attempt(t, o, o.model))) {
     FitOptions independent = o;
     independent.intervals = Intervals::independent;

@@ -45,7 +45,7 @@ void expect_own(const std::string& folder,
     if (std::filesystem::is_symlink(path, none))
       throw bad_input(path, "writing", "a link", "a file of the folder itself (remove the link)");
     if (!std::filesystem::is_regular_file(path, none)) continue;
-    // What an earlier run listed is known by its beginning.
+    // Of a file that an earlier run listed the beginning is enough.
     const bool is_known = own.contains(name);
     const bool made_by_gonio = of_tables.contains(name) && !is_known ? is_batch_document(path)
                                : name.ends_with(".html")             ? is_page(path)

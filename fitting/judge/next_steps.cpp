@@ -228,7 +228,6 @@ std::vector<std::string> next_steps(const FitOptions& o,
     steps.add("--mask 'retro < 15': no microfacet model has a highlight at wo = wi");
   if (o.copies && f.copies)
     steps.add("fit without --copies keep: angles that only repeat another are no measurements");
-  constexpr double as_well_without = 1.05;  // log RMS
   const auto unknown = unknown_lobe(d);
   const std::string less = unknown ? without_lobe(spec, *unknown) : "";
   std::string otherwise;
@@ -247,8 +246,9 @@ std::vector<std::string> next_steps(const FitOptions& o,
   if (f.cost_of_fewer < d.cost &&
       std::ranges::count(spec.lobes, spec.lobes[0]) == std::ssize(spec.lobes))
     steps.add_model(without_lobe(spec, 0), "meets the table better");
-  else if (unknown && !mended && !f.no_f && !d.misfit.told &&
-           !(attempt(less) > as_well_without * attempt(d.model)))
+  else if (constexpr double as_well = 1.05;  // log RMS
+           unknown && !mended && !f.no_f && !d.misfit.told &&
+           !(attempt(less) > as_well * attempt(d.model)))
     steps.add_model(less, f.needless ? "does as well: nothing is known of the lobe"
                                      : "says all that is known: of the lobe nothing is");
   if (f.unresolved)
