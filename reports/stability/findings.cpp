@@ -109,8 +109,8 @@ void which_alpha(Findings& to, const StabilityRows& r) {
       else {
         // Half's NoH is taken for exact: its own rounding is that of mixed numbers.
         std::string given = o.form == "cosine" ? ", of a NoH that half holds" : "";
-        if (const auto* flushed = find(r, o.id, o.form, "half, flushed");
-            flushed && flushed->safe_from.value_or(1) > 2 * *row->safe_from)
+        if (const auto* if_flushed = find(r, o.id, o.form, "half, flushed");
+            if_flushed && if_flushed->safe_from.value_or(1) > 2 * *row->safe_from)
           given += ", if the processor keeps subnormals";
         to.say(fmt::format("{} in half stays within {} {}{}{}.", o.name, keeps,
                            *row->safe_from < 1e-5 ? std::string("for every alpha")
