@@ -286,7 +286,7 @@ FitResult fit_and_judge(const Table& t,
   widen(u, lack, judged.seen_against);
   watch.lap("misfit_ms");
   const bool needless = find_undetermined(p, found.scanned, f, a.counts, lack.misfit.told, u,
-                                          t.truth ? std::vector<double>() : lost_below(table));
+                                          t.truth ? std::vector<double>() : table.lost_below());
   if (!lack.moved_by_scale.empty()) leave_unbounded_by_scale(p, f.model.values, u);
   keep_to_what_is_seen(table, p, f.model.values, lack.misfit, u);
   watch.lap("limits_ms");

@@ -83,27 +83,47 @@ double noise_square(const Left& left, TableFacts& facts, double all) {
   return std::fmin(std::fmin(of_lines, of_list), of_table);
 }
 
-/// The table without what the model has within a channel's noise, of which the lower half is lost; but what the table has far above
-/// it no noise has lost, whatever the model.
-Table without_lost(const Table& t, const BoundModel& b, const std::vector<double>& lost_below) {
-  constexpr double noises = 8;  // beyond which logarithms are hardly lowered
-  constexpr double far = 1.5;   // times that, which takes no noise
-  Table bright = t;
+/// Values of a model at all samples of a table.
+std::vector<std::vector<double>> values_at(const Table& t, const BoundModel& b) {
   const SampleAngles at(t, t.bins());
+  std::vector<std::vector<double>> all(t.values.size());
   constexpr std::size_t block = 4096;
   std::vector<FrameAngles<double>> angles;
   for (std::size_t first = 0; first < t.size(); first += block) {
-    const std::size_t last = std::min(first + block, t.size());
     angles.clear();
-    for (std::size_t i = first; i < last; ++i) angles.push_back(at.frame(i));
+    for (std::size_t i = first; i < std::min(first + block, t.size()); ++i)
+      angles.push_back(at.frame(i));
     const auto f = evaluate(b, angles);
     for (std::size_t c = 0; c < f.size(); ++c)
-      for (std::size_t i = first; i < last; ++i)
-        if (const double most = noises * lost_below[c];
-            !(f[c][i - first] > most || t.values[c][i] > far * most))
-          bright.values[c][i] = std::nan("");
+      all[c].insert(all[c].end(), f[c].begin(), f[c].end());
   }
+  return all;
+}
+
+/// The table without what the model has within a channel's noise, of which the lower half is lost; but what the table has far above
+/// it no noise has lost, whatever the model.
+Table without_lost(const Table& t, const BoundModel& b, const std::vector<double>& lost_below) {
+  constexpr double noises = 5;  // beyond which logarithms are hardly lowered
+  constexpr double far = 1.5;   // times that, which takes no noise
+  Table bright = t;
+  const auto f = values_at(t, b);
+  for (std::size_t c = 0; c < f.size(); ++c)
+    for (std::size_t i = 0; i < t.size(); ++i)
+      if (const double most = noises * lost_below[c];
+          !(f[c][i] > most || t.values[c][i] > far * most))
+        bright.values[c][i] = std::nan("");
   return bright;
+}
+
+/// The table with uncertainties as large as noise that was found.
+Table with_errors(const Table& t, const BoundModel& b, const std::vector<UnevenNoise>& noise) {
+  Table stated = t;
+  const auto f = values_at(t, b);
+  stated.errors.assign(f.size(), Values(t.size()));
+  for (std::size_t c = 0; c < f.size(); ++c)
+    for (std::size_t i = 0; i < t.size(); ++i)
+      stated.errors[c][i] = noise[c].part * std::hypot(f[c][i], noise[c].floor);
+  return stated;
 }
 
 /// A file of another scale shows so.  A wrong model misses several angles, and within one angle not by one factor.
@@ -377,6 +397,18 @@ LackOfFit lack_of_all(
     left = left_over(*logs, p, judged, facts);
     find_variances(left);
     by_logarithms = true;
+  } else if (s.metric() == Metric::log && !left.stated && !left.robust && p.free.size() > 0) {
+    // Logarithms of dark values that noise is large beside are lowered, and weigh as much as
+    // others.
+    if (const auto noise = uneven_noise(left); noise.size() == s.channels()) {
+      FitOptions options = p.options;
+      options.metric = Metric::uncertainty;
+      const Problem by_noise{options, p.start, p.free, p.bounds, p.narrowed, p.offset, p.rounding};
+      const Table stated = with_errors(s.table(), f.model, noise);
+      const Sampling weighed = sampling_for(by_noise, stated, stated.bins());
+      return lack_of_all(weighed, by_noise, compared_by(weighed, by_noise, scan_samples, f),
+                         samples_used, facts);
+    }
   }
   const bool by_angle = p.options.intervals == Intervals::by_angle;
   const bool measured =
@@ -456,7 +488,8 @@ LackOfFit lack_of_all(
 
 LackOfFit lack_of_fit(
     const Sampling& s, const Problem& p, const Fitted& f, double samples_used, TableFacts& facts) {
-  const auto lost = s.table().truth || p.options.robust ? std::vector<double>() : lost_below(facts);
+  const auto lost =
+      s.table().truth || p.options.robust ? std::vector<double>() : facts.lost_below();
   if (!is_any_lost(lost)) return lack_of_all(s, p, f, samples_used, facts);
   // Beside values that lost their lower half to noise the right model misses the others, too.
   const Table bright = without_lost(s.table(), f.model, lost);
@@ -500,7 +533,7 @@ void find_dark_bias(LackOfFit& found,
                     const Uncertainty& judged,
                     TableFacts& table) {
   if (p.options.metric != Metric::log || p.options.robust || table.table().truth ||
-      found.misfit.told || found.outliers || is_any_lost(lost_below(table)))
+      found.misfit.told || found.outliers || is_any_lost(table.lost_below()))
     return;
   const Left left = left_over(sampling, p, f, table);
   std::vector<std::pair<double, double>> values;  // f, and ln of data over model

@@ -61,7 +61,8 @@ struct LackOfFit {
 /// open: of incident angles, outgoing angles, azimuths or places of light and detector, and of two of these at most.
 /// From 8 angles on their sums are judged, too.  A robust fit then clips beside those scales, and what they do to the
 /// parameters is part of the intervals.  Where noise is in proportion to f, and the metric is another than log, a refit by
-/// logarithms is judged: size and cell are that refit's.
+/// logarithms is judged: size and cell are that refit's.  Where a fit of logarithms meets noise that is larger beside dark values, or in
+/// one channel, a refit that weighs values by it is judged.
 ///
 /// A misfit is significant at 1 % and exceeds 1 % of f, or what noise does to a parameter.  What is left
 /// is also compared with what neighbouring values differ by, and the scales of incident angles with what

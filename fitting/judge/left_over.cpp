@@ -336,6 +336,45 @@ bool find_variances(Left& left) {
   return kind != of_one_size;
 }
 
+std::vector<UnevenNoise> uneven_noise(const Left& whole) {
+  constexpr std::size_t looked_at = 1 << 12;
+  constexpr double clearly = 6;  // twice the logarithm of the likelihoods' ratio
+  constexpr double apart = 1.5;  // a channel's noise, of another's
+  const Left left = thinned(whole, looked_at);
+  const auto rest = without_smooth(left);
+  std::vector<UnevenNoise> all;
+  bool is_uneven = false;
+  for (std::size_t c = 0; c < left.unknowns.size(); ++c) {
+    std::vector<std::array<double, 3>> values;  // f, what is left of it, and how often it counts
+    for (std::size_t i = 0; i < rest.size(); ++i)
+      if (const auto& v = left.values[i]; v.channel == c && v.slope > 0 && v.f > 0)
+        values.push_back({v.f, rest[i] / v.slope, v.root_count * v.root_count});
+    if (values.empty()) return {};
+    double count = 0;
+    for (const auto& v : values) count += v[2];
+    const auto scatter = [&](double floor) {
+      double logs = 0, squares = 0;
+      for (const auto& [f, off, n] : values) {
+        const double size = std::hypot(f, floor) / values[0][0];
+        logs += 2 * n * std::log(size), squares += n * std::pow(off / size / values[0][0], 2);
+      }
+      return std::pair(logs + count * std::log(squares), squares / count);
+    };
+    const auto [least, most] = std::ranges::minmax(values, {}, [](const auto& v) { return v[0]; });
+    auto best = scatter(0);
+    UnevenNoise here{std::sqrt(best.second), 0};
+    best.first -= clearly;
+    constexpr double step = 2;
+    for (double floor = least[0] / 16; floor < 64 * most[0]; floor *= step)
+      if (const auto there = scatter(floor); there.first < best.first)
+        best = there, here = {std::sqrt(there.second), floor}, is_uneven = true;
+    all.push_back(here);
+  }
+  const auto [low, high] = std::ranges::minmax(all, {}, &UnevenNoise::part);
+  if (!is_uneven && !(high.part > apart * low.part)) all.clear();
+  return all;
+}
+
 std::optional<MisfitCell> worst_cell(const Left& left) {
   std::optional<MisfitCell> worst;
   struct Cell {

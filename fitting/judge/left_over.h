@@ -96,6 +96,13 @@ Left left_over(const Sampling&, const Problem&, const Fitted&, TableFacts&);
 /// \return  whether in proportion to f
 bool find_variances(Left&);
 
+/// Noise of a channel's values that is no part of f: √(f² + floor²), in standard deviations, times `part`.
+struct UnevenNoise {
+  double part, floor;
+};
+/// That of each channel; empty where a part of f is all of it, the same in each channel.
+std::vector<UnevenNoise> uneven_noise(const Left&);
+
 /// Cell that is furthest off for certain: by its mean less two standard errors.
 std::optional<MisfitCell> worst_cell(const Left&);
 

@@ -8,6 +8,7 @@
 #include "table/health/computed.h"
 #include "table/health/directional_albedo.h"
 #include "table/health/health.h"
+#include "table/health/lost_values.h"
 #include "table/health/noise.h"
 #include "table/health/peak.h"
 #include "table/health/reciprocity.h"
@@ -48,6 +49,12 @@ class TableFacts {
   double noise_floor() {
     return once(noise_floor_, [&] { return gonio::noise_floor(*this); });
   }
+  const std::optional<SharedEnd>& clipped_end() {
+    return once(clipped_end_, [&] { return gonio::clipped_end(*this); });
+  }
+  const std::vector<double>& lost_below() {
+    return once(lost_below_, [&] { return gonio::lost_below(*this); });
+  }
   /// See one_value_per_angle().
   bool computed() {
     return once(computed_, [&] { return one_value_per_angle(table_); });
@@ -68,6 +75,8 @@ class TableFacts {
   std::optional<Reciprocity> reciprocity_;
   std::optional<std::optional<std::size_t>> negative_channel_;
   std::optional<double> negative_offset_, noise_floor_;
+  std::optional<std::optional<SharedEnd>> clipped_end_;
+  std::optional<std::vector<double>> lost_below_;
   std::optional<bool> computed_;
 };
 

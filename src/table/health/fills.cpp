@@ -85,7 +85,7 @@ std::optional<Fill> fill_of(const Table& t) {
   for (std::size_t c = 0; c < t.values.size(); ++c) {
     const auto f = most_frequent(t, at, c);
     if (!f || (found && f->value != found->value)) continue;
-    const double steps = beyond_steps * f->step / f->value;
+    const double steps = std::log1p(beyond_steps * f->step / f->value);
     if (step_beside(t, at, c, f->value) < std::max(least_step, steps)) continue;
     if (!found) found = {f->value, 0, 0, {}};
     found->sharers += f->times;

@@ -9,6 +9,7 @@
 #include "base/few.h"
 #include "base/quantile.h"
 #include "table/format/measured_by.h"
+#include "table/health/facts.h"
 #include "table/health/fills.h"
 #include "table/health/rounding.h"
 
@@ -19,6 +20,8 @@ namespace gonio {
 namespace {
 
 constexpr double digits_of_one = 20;  ///< standard deviations of rounding in six steps
+
+constexpr double some_lost = 0.005;  ///< of the values: fewer zeros may be anything
 
 /// True where rounding to 0 or to one digit shifts many values.  A table all of whose values are short numbers may have been
 /// written so, but for zeros.
@@ -40,10 +43,7 @@ struct Zeros {
     return static_cast<double>(none) > part * static_cast<double>(values);
   }
   bool are_rounded() const { return rounding.absolute > 0 && is_coarse(none, coarse, values); }
-  bool are_clipped() const {
-    constexpr double some = 0.005;
-    return !are_rounded() && negative == 0 && are_many(some);
-  }
+  bool are_clipped() const { return !are_rounded() && negative == 0 && are_many(some_lost); }
 };
 constexpr std::size_t few_values = 8;
 Zeros zeros_of(const Table& t) {
@@ -87,12 +87,6 @@ std::size_t shared_end(const std::vector<double>& values, const Near& is_near) {
                                                                                              : last;
 }
 
-/// Last value that many samples share, of a channel or of several that end there.
-struct SharedEnd {
-  double value;
-  std::size_t sharers, values;
-  std::vector<std::string> channels;
-};
 std::vector<SharedEnd> shared_ends(const Table& t, bool greatest) {
   const SampleAngles at(t);
   const FileRounding rounding = rounding_of(t);
@@ -134,43 +128,60 @@ bool is_base(const SharedEnd& e) {
   return 4 * e.sharers > 3 * e.values;
 }
 
-/// True where values up to about a size have so little noise that none of that size was clipped: it would be in all of them.
-bool are_exact_up_to(TableFacts& facts, std::size_t channel, double size) {
+/// Whether values up to about a size have so little noise that none of that size was clipped: it would be in all of them.  Nothing
+/// where too few of them have neighbours.
+std::optional<bool> are_exact_up_to(TableFacts& facts, std::size_t channel, double size) {
   const Values& plane = facts.table().values[channel];
   std::vector<double> near;
   for (const auto& d : facts.noise_samples().all)
     if (d.channel == channel && plane[d.sample] < 4 * size) near.push_back(std::abs(d.more));
   constexpr std::size_t few = 8;
   constexpr double exact = 0.1;
-  return near.size() >= few && median(near) < exact;
+  return near.size() < few ? std::nullopt : std::optional(median(near) < exact);
 }
 
-/// Noise that took values of a channel down to its least one, at which it was clipped: what stands beside these typically is.  0 where
-/// they stand between values that are alike or exact: then they are marks of what is missing.
-double noise_beside(TableFacts& facts, std::size_t channel, double least) {
+/// Noise that took values of a channel down to its least one, at which it was clipped, or below 0: what stands beside these scatters so
+/// much.  0 where they are marks of what is missing: next to no value lies between them and what stands beside them, or that is exact or,
+/// where nothing shows how exact, alike.
+/// \param known  whether they are known to be no marks
+double noise_beside(TableFacts& facts, std::size_t channel, double least, bool known = false) {
   constexpr double of_half = 1.4826;  // the standard deviation of noise, of its typical size
-  constexpr double smooth = 0.35;
+  constexpr double smooth = 0.35;     // ln of a factor: noise would not reach down so far
+  constexpr std::size_t few = 8;      // as many as one between them
   const Table& t = facts.table();
   const Values& plane = t.values[channel];
   const SampleAngles at(t);
   const std::size_t step = t.size() / 60'000 + 1;
-  std::vector<double> beside, apart;  // apart: how far its neighbours are from each other
+  std::vector<double> beside, apart, above;  // apart: how far its neighbours are from each other
+  std::size_t lost = 0;
   for (std::size_t i = 0; i < t.size(); i += step) {
-    if (!(plane[i] >= 0 && plane[i] <= least) || mask(at(i), plane[i]) != Mask::valid) continue;
+    const Mask m = mask(at(i), plane[i]);
+    if (m != Mask::valid && m != Mask::negative) continue;
+    if (plane[i] > least) {
+      above.push_back(plane[i]);
+      continue;
+    }
+    ++lost;
     for (const std::size_t k : {i - 1, i + 1})
       if (k < t.size() && plane[k] > least) beside.push_back(plane[k]);
     if (i > 0 && i + 1 < t.size() && plane[i - 1] > least && plane[i + 1] > least)
       apart.push_back(std::abs(std::log(plane[i - 1] / plane[i + 1])));
   }
-  if (beside.empty() || (!apart.empty() && median(apart) < smooth)) return 0;
-  const double size = of_half * median(beside);
-  return are_exact_up_to(facts, channel, size) ? 0 : size;
+  if (beside.empty()) return 0;
+  const double typical = median(beside);
+  const auto between = std::ranges::count_if(above, [&](double f) { return 2 * f < typical; });
+  if (!known && (few * static_cast<std::size_t>(between) < lost ||
+                 are_exact_up_to(facts, channel, of_half * typical)
+                     .value_or(!apart.empty() && median(apart) < smooth)))
+    return 0;
+  for (double& f : beside) f = std::abs(f - typical);
+  return of_half * median(beside);
 }
 
 /// The least value of channels, where several share it and noise is far larger.
 std::optional<SharedEnd> end_in_noise(TableFacts& facts) {
   constexpr std::size_t several = 3;
-  constexpr double far = 10;
+  constexpr double far = 3;
   const Table& t = facts.table();
   const SampleAngles at(t);
   const std::size_t step = t.size() / 60'000 + 1;
@@ -194,21 +205,6 @@ std::optional<SharedEnd> end_in_noise(TableFacts& facts) {
   return all.sharers > 0 ? std::optional(std::move(all)) : std::nullopt;
 }
 
-/// The least value, where that many share it and noise goes on above.
-std::optional<SharedEnd> clipped_end(TableFacts& facts) {
-  const Table& t = facts.table();
-  for (auto& e : shared_ends(t, false)) {
-    std::vector<double> above;  // a computed base is shared, too
-    for (const auto& d : facts.noise_samples().all)
-      if (const double v = t.values[d.channel][d.sample]; v > e.value && v < 10 * e.value)
-        above.push_back(std::abs(d.more));
-    constexpr std::size_t few = 8;
-    constexpr double noisy = 0.1;
-    if (above.size() >= few && median(above) > noisy && !is_base(e)) return std::move(e);
-  }
-  return end_in_noise(facts);
-}
-
 /// Name of a channel's values in a mask.
 std::string in_mask(const std::string& channel) {
   return channel == "f" ? channel : "f_" + channel;
@@ -229,6 +225,20 @@ void warn_of_fill(const Table& t, const Fill& fill, std::vector<std::string>& al
 }
 
 }  // namespace
+
+std::optional<SharedEnd> clipped_end(TableFacts& facts) {
+  const Table& t = facts.table();
+  for (auto& e : shared_ends(t, false)) {
+    std::vector<double> above;  // a computed base is shared, too
+    for (const auto& d : facts.noise_samples().all)
+      if (const double v = t.values[d.channel][d.sample]; v > e.value && v < 10 * e.value)
+        above.push_back(std::abs(d.more));
+    constexpr std::size_t few = 8;
+    constexpr double noisy = 0.1;
+    if (above.size() >= few && median(above) > noisy && !is_base(e)) return std::move(e);
+  }
+  return end_in_noise(facts);
+}
 
 void warn_of_zeros(TableFacts& facts, std::vector<std::string>& all) {
   constexpr std::size_t most_by_hand = 50;  // numbers that somebody typed may be as short
@@ -274,7 +284,7 @@ void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
         few ? fmt::format("'{}'", fmt::join(conditions, " or ")) : few_of(conditions, " or "),
         few ? "leaves them out" : "leave them out"));
   }
-  if (const auto e = clipped_end(facts)) {
+  if (const auto& e = facts.clipped_end()) {
     all.push_back(found(*e) + ", and none is less: clipped noise? It biases every metric");
     return;
   }
@@ -283,20 +293,22 @@ void warn_of_shared_ends(TableFacts& facts, std::vector<std::string>& all) {
 }
 
 bool is_clipped(TableFacts& facts) {
-  return zeros_of(facts.table()).are_clipped() || clipped_end(facts);
+  return zeros_of(facts.table()).are_clipped() || facts.clipped_end();
 }
 
 std::vector<double> lost_below(TableFacts& facts) {
   const Table& t = facts.table();
-  constexpr double many = 0.02;  // of the values
   const SampleAngles at(t);
   const double rounding = rounding_of(t).absolute, floor = facts.noise_floor();
   const std::size_t step = t.size() / 60'000 + 1;
-  const auto end = clipped_end(facts);
+  const auto& end = facts.clipped_end();
   const auto below = [&](std::size_t c) -> double {
     const Values& plane = t.values[c];
     if (std::ranges::none_of(plane, [](double v) { return v > 0; })) return 0;
-    if (floor > 0) return std::ranges::any_of(plane, [](double v) { return v < 0; }) ? floor : 0;
+    if (floor > 0)  // of a few the typical size is less than noise has
+      return std::ranges::any_of(plane, [](double v) { return v < 0; })
+                 ? std::max(floor, noise_beside(facts, c, 0))
+                 : 0;
     const double least = end && std::ranges::count(end->channels, t.channels[c]) ? end->value : 0;
     std::size_t lost = 0, coarse = 0, values = 0;
     for (std::size_t i = 0; i < t.size(); i += step) {
@@ -305,8 +317,8 @@ std::vector<double> lost_below(TableFacts& facts) {
       lost += plane[i] >= 0 && plane[i] <= least && mask(at(i), plane[i]) == Mask::valid;
     }
     if (rounding > 0 && is_coarse(lost, coarse, values)) return std::sqrt(12) * rounding / 2;
-    return static_cast<double>(lost) > many * static_cast<double>(values)
-               ? noise_beside(facts, c, least)
+    return least > 0 || static_cast<double>(lost) > some_lost * static_cast<double>(values)
+               ? noise_beside(facts, c, least, least > 0)
                : 0;
   };
   std::vector<double> lost;

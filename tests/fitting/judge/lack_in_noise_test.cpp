@@ -79,6 +79,22 @@ TEST(LackInNoise, AccusesNoRightModelBesideNoiseThatWasClipped) {
   }
 }
 
+TEST(LackInNoise, LimitsTheDiffuseTermWhereFewValuesWereClippedAndKeepsTheHighlight) {
+  const auto truth = test::bind(glossy, "alpha=0.2,f0=0.1,kd=0.02", 1);
+  for (unsigned seed = 1; seed <= 4; ++seed)
+    for (const double least : {0.0, 5e-5, 1e-6}) {  // about one of a hundred values
+      const Table t = in_noise(truth, seed, 0.02, 0.0055, least);
+      const auto d = fit_of(t, glossy);
+      EXPECT_FALSE(d.misfit.told) << seed << " " << least;
+      EXPECT_FALSE(d.misfit.too_few) << seed << " " << least;
+      const auto& matte = test::parameter(d, "kd");
+      EXPECT_EQ(matte.status[0], ParameterStatus::upper_limit) << seed << " " << least;
+      EXPECT_GT(matte.limit[0], 0.02) << seed << " " << least;
+      EXPECT_EQ(test::parameter(d, "alpha").status[0], ParameterStatus::free) << seed << least;
+      EXPECT_EQ(test::parameter(d, "f0").status[0], ParameterStatus::free) << seed << least;
+    }
+}
+
 TEST(LackInNoise, LimitsTheDiffuseTermOfOnlyTheChannelThatNoiseCovers) {
   const auto truth = test::bind(glossy, "alpha=0.2,f0=0.05,kd=0.004", 1);
   Table t;

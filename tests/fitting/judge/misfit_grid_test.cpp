@@ -55,6 +55,9 @@ constexpr std::array<const char*, 4> gain_names{"incident", "outgoing", "detecto
 struct Errors {
   double noise, gain;
   GainOf of = GainOf::incident;
+  double floor = 0;  ///< noise of one size, of what a tenth of the values are below
+  double noise_of_third =
+      -1;  ///< of the third of three channels; less than 0: there is one channel
 };
 
 /// Exact values, and a table of them with errors.
@@ -86,6 +89,13 @@ MeasuredTable measured_table(
   t.where = std::move(l);
   test::put_values(t, test::bind(pair.truth, pair.settings, 1));
   const std::size_t n = t.size();
+  auto sorted = t.values[0];
+  std::ranges::sort(sorted);
+  const double floor = errors.floor * sorted[n / 10];
+  if (errors.noise_of_third >= 0) {
+    t.channels = {"r", "g", "b"};
+    t.values.resize(3, t.values[0]);
+  }
   m.table = t;
   std::mt19937_64 random(seed);
   std::normal_distribution<double> normal;
@@ -98,13 +108,17 @@ MeasuredTable measured_table(
   for (std::size_t i = 0; i < n; ++i) {
     const auto& list = *t.list();
     const double in = list.theta_i_deg[i], out = list.theta_o_deg[i], phi = list.phi_o_deg[i];
-    double& f = m.table.values[0][i];
+    double common = 1;
     if (errors.of == GainOf::incident || errors.of == GainOf::light_and_detector)
-      f *= gain_of({in, -1, -1});
-    if (errors.of == GainOf::outgoing) f *= gain_of({-1, out, -1});
+      common *= gain_of({in, -1, -1});
+    if (errors.of == GainOf::outgoing) common *= gain_of({-1, out, -1});
     if (errors.of == GainOf::detector || errors.of == GainOf::light_and_detector)
-      f *= gain_of({-1, out, out > 0 ? phi : 0});
-    f *= std::exp(errors.noise * normal(random));
+      common *= gain_of({-1, out, out > 0 ? phi : 0});
+    for (std::size_t c = 0; c < t.values.size(); ++c)
+      m.table.values[c][i] *=
+          common * std::exp((c == 2 ? errors.noise_of_third : errors.noise) * normal(random));
+    if (floor > 0)
+      for (auto& plane : m.table.values) plane[i] += floor * normal(random);
   }
   return m;
 }
@@ -217,6 +231,29 @@ TEST(MisfitOfFewAngles, OfTheRightModelIsNotSaid) {
         << static_cast<int>(layout) << ": " << t.told << " of " << t.fits;
   for (const auto& [layout, t] : from_eight)
     EXPECT_LE(10 * t.too_few, t.fits) << static_cast<int>(layout);
+}
+
+TEST(MisfitOfFewAngles, IsJudgedByNoiseThatIsLargerBesideDarkValuesOrInOneChannel) {
+  GONIO_MANY_FITS();
+  const std::vector<Errors> errors{{0.01, 0, GainOf::incident, 0.1},
+                                   {0.02, 0, GainOf::incident, 0.2},
+                                   {0.01, 0, GainOf::incident, 0, 0.04}};
+  const auto tally_of = [&](const std::vector<TruthAndFit>& pairs) {
+    GridTally all;
+    for (const auto& pair : pairs)
+      for (const Around around : {Around::in_plane, Around::coarse})
+        for (const auto& e : errors)
+          for (unsigned seed = 1; seed <= (is_long() ? 40U : 4U); ++seed)
+            judge(pair, around, 12, e, seed, all);
+    return all;
+  };
+  const auto right = tally_of({{one_gtr, "alpha=0.25,gamma=1.5,f0=0.05,kd=0.03", one_gtr},
+                               {"ggx/smith_ggx.correlated/schlick", "alpha=0.3,f0=0.6",
+                                "ggx/smith_ggx.correlated/schlick"}});
+  EXPECT_LE(50 * right.told, right.fits) << right.told << " of " << right.fits;
+  const auto wrong = tally_of({{one_gtr, "alpha=0.25,gamma=1.3,f0=0.05,kd=0.03", one_lobe},
+                               {one_lobe, "alpha=0.25,f0=0.05,kd=0.05", one_beckmann}});
+  EXPECT_GE(20 * wrong.told, 19 * wrong.fits) << wrong.told << " of " << wrong.fits;
 }
 
 TEST(MisfitOfFewAngles, OfTheScaleOfTheWholeTableIsOnTheScaleOfTheFitsQuality) {

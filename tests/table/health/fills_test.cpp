@@ -39,7 +39,7 @@ std::optional<Fill> fill_in(const Table& t) {
 }
 
 TEST(Fills, AreNamedWithTheirNumberWhateverTheyAre) {
-  for (const double fill : {1e-4, 0.21, 999.0, 1e30}) {
+  for (const double fill : {1e-9, 1e-6, 1e-4, 0.21, 999.0, 1e30}) {
     Table t = measured(0.02);
     for (std::size_t i = 0; i < t.size(); ++i)
       if (t.list()->theta_o_deg[i] > 70) t.values[0][i] = fill;
