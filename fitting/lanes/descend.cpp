@@ -54,14 +54,14 @@ B as_number(const mask_t<B>& m) {
   return select<B>(m, B(1), B(0));
 }
 
-/// JᵀJ, Jᵀr and the cost from the channels' sums, by steps from x.
+/// JᵀJ, Jᵀr by the first n unknowns and the cost from the channels' sums, by steps from x.
 B gather(const TexelUnknowns& u,
+         std::size_t n,
          const UnknownOf& of,
          const float* const* sums,
          const Rows& x,
          const Rows& h,
          const Rows& g) {
-  const std::size_t n = u.count;
   for (std::size_t e = 0; e < entries(n); ++e) h.put(e, B(0));
   for (std::size_t i = 0; i < n; ++i) g.put(i, B(0));
   B cost(0);
@@ -75,7 +75,7 @@ B gather(const TexelUnknowns& u,
       if (i < n) g.add(i, at(1 + a));
       for (std::size_t b = a; b < k; ++b, ++e) {
         const std::size_t j = of[c][b];
-        if (i == n || j == n) continue;
+        if (i >= n || j >= n) continue;
         const B x2 = at(e);
         h.add(entry(std::max(i, j), std::min(i, j)), i == j && a != b ? x2 + x2 : x2);
       }
@@ -92,10 +92,11 @@ B gather(const TexelUnknowns& u,
   return cost / 2;
 }
 
-/// The root of a matrix, L D Lᵀ within its profile; 1/D.  A pivot that is rounding of what it was counts as that part of it.
-void factorise(const TexelUnknowns& u, const Rows& m, const Rows& per_pivot) {
+/// The root of a matrix of the first n unknowns, L D Lᵀ within its profile; 1/D.  A pivot that is rounding of what it was counts as that
+/// part of it.
+void factorise(const TexelUnknowns& u, std::size_t n, const Rows& m, const Rows& per_pivot) {
   const B least = constant<B>(2e-7L), tiny = constant<B>(1e-35L);
-  for (std::size_t i = 0; i < u.count; ++i) {
+  for (std::size_t i = 0; i < n; ++i) {
     const B whole = m[entry(i, i)];
     B pivot = whole;
     for (std::size_t j = u.first[i]; j < i; ++j) {
@@ -113,8 +114,8 @@ void factorise(const TexelUnknowns& u, const Rows& m, const Rows& per_pivot) {
   }
 }
 /// Solves it for a right side, in place.
-void solve(const TexelUnknowns& u, const Rows& l, const Rows& per_pivot, const Rows& x) {
-  const std::size_t n = u.count;
+void solve(
+    const TexelUnknowns& u, std::size_t n, const Rows& l, const Rows& per_pivot, const Rows& x) {
   for (std::size_t i = 0; i < n; ++i) {
     B sum = x[i];
     for (std::size_t j = u.first[i]; j < i; ++j) sum = sum - l[entry(i, j)] * x[j];
@@ -130,10 +131,11 @@ void solve(const TexelUnknowns& u, const Rows& l, const Rows& per_pivot, const R
   }
 }
 
-/// Step from x inside the bounds, and where it leads: unknowns that meet a bound, or the furthest that a ratio may change by, stay there
-/// and the rest is solved for anew.
+/// Step of the first n unknowns from x inside the bounds, and where it leads: those that meet a bound, or the furthest that a ratio may
+/// change by, stay there and the rest is solved for anew.  Damped is what f is not linear in.
 /// \return what it promises of the cost
 B step_inside(const TexelUnknowns& u,
+              std::size_t n,
               const Rows& x,
               const Rows& h,
               const Rows& g,
@@ -141,7 +143,6 @@ B step_inside(const TexelUnknowns& u,
               std::size_t rounds,
               const Rows& to,
               const Rows& scratch) {
-  const std::size_t n = u.count;
   const Rows m = scratch, free = scratch.from(entries(n)), step = free.from(n),
              per_pivot = step.from(n);
   const B zero(0), one(1);
@@ -162,9 +163,10 @@ B step_inside(const TexelUnknowns& u,
       const B fi = free[i];
       for (std::size_t j = u.first[i]; j < i; ++j)
         m.put(entry(i, j), h[entry(i, j)] * (fi * free[j]));
-      m.put(entry(i, i), fi * h[entry(i, i)] * (one + damping) + (one - fi));
+      const B damped = i < u.linear ? h[entry(i, i)] : h[entry(i, i)] * (one + damping);
+      m.put(entry(i, i), fi * damped + (one - fi));
     }
-    factorise(u, m, per_pivot);
+    factorise(u, n, m, per_pivot);
     // What is held has moved already: −g − H step of the held.
     const Rows side = per_pivot.from(n);
     for (std::size_t i = 0; i < n; ++i) side.put(i, -g[i]);
@@ -176,7 +178,7 @@ B step_inside(const TexelUnknowns& u,
           if (j < i) side.put(j, side[j] - hij * step[i] * (one - free[i]));
         }
     for (std::size_t i = 0; i < n; ++i) side.put(i, side[i] * free[i]);
-    solve(u, m, per_pivot, side);
+    solve(u, n, m, per_pivot, side);
     B met = zero;
     for (std::size_t i = 0; i < n; ++i) {
       const auto moves = zero < free[i];
@@ -210,20 +212,29 @@ bool descend(const TexelUnknowns& u,
              TexelState& state) {
   const std::size_t n = u.count;
   const Rows x(state.x), tried(state.tried), h(state.h), g(state.g), scratch(state.scratch);
-  const Rows new_h = scratch, new_g = scratch.from(entries(n)), room = new_g.from(n);
-  const Rows cost(state.cost), damping(state.damping), promise(state.promise), done(state.done);
+  const Rows new_h = scratch, new_g = scratch.from(entries(n)), lowest = new_g.from(n),
+             room = lowest.from(n);
+  const Rows cost(state.cost), damping(state.damping), promise(state.promise), done(state.done),
+      gain(state.gain);
   const B zero(0), one(1), infinite = constant<B>(std::numeric_limits<float>::infinity());
   const B rounding = B(u.rounding) * Rows(state.signal)[0];
 
-  const B now = gather(u, of, sums, tried, new_h, new_g);
+  // Points are compared by the cost where all in which f is linear is at its best: a step of the
+  // others leads away from that.
+  const B here = gather(u, n, of, sums, tried, new_h, new_g);
+  for (std::size_t i = u.linear; i < n; ++i) lowest.put(i, tried[i]);
+  const B new_gain = step_inside(u, u.linear, tried, new_h, new_g, zero, 3, lowest, room);
+  const B now = here - new_gain;
   const auto moving = !(zero < done[0]), begins = !(cost[0] < infinite);
   const auto finite = now < infinite;  // false of NaN
   const B old = cost[0], promised = promise[0];
   // Rounding of the cost: residuals r are differences of values f, 2 r 6e-8 f summed.
   const B signal = Rows(state.signal)[0], finite_old = select<B>(begins, zero, old);
-  const B noise = constant<B>(5e-7L) * sqrt(finite_old * signal);
+  const B gained = gain[0], of_gain = constant<B>(5e-7L) * gained;
+  const B noise = constant<B>(5e-7L) * sqrt(finite_old * signal) + of_gain;
   const auto hidden = promised < constant<B>(1e-6L) * old + 16 * rounding + noise;
-  const auto lower = now < old || (hidden && now < old * constant<B>(1 + 1e-4L) + 64 * rounding);
+  const auto lower =
+      now < old + of_gain || (hidden && now < old * constant<B>(1 + 1e-4L) + 64 * rounding);
   const auto takes = moving && finite && (begins || lower);
   for (std::size_t i = 0; i < n; ++i) {
     x.put(i, select<B>(takes, tried[i], x[i]));
@@ -235,6 +246,7 @@ bool descend(const TexelUnknowns& u,
   // Damping falls where a step keeps what it promised.
   const B before = damping[0], least = constant<B>(1e-3L);
   const B kept = old - now;
+  gain.put(0, select<B>(takes, new_gain, gained));
   const auto good = takes && !begins && !(kept < promised / 2);
   const B less = select<B>(before < least, zero, before / 10);
   const B more = max<B>(before * 10, constant<B>(1e-2L));
@@ -242,7 +254,8 @@ bool descend(const TexelUnknowns& u,
   damping.put(0, select<B>(moving, select<B>(begins, before, next), before));
 
   const Rows to = room, inner = room.from(n);
-  const B will = step_inside(u, x, h, g, damping[0], 3, to, inner);
+  const B all = step_inside(u, n, x, h, g, damping[0], 3, to, inner);
+  const B will = max<B>(all - gain[0], zero);
   const B best = cost[0];
   // A step cut at the furthest leads elsewhere than its promise was made for: that it promises
   // little ends nothing.
@@ -250,16 +263,22 @@ bool descend(const TexelUnknowns& u,
   B cut = zero;
   for (std::size_t i = 0; i < n; ++i)
     cut = max<B>(cut, as_number(!(abs(steps[i]) < B(u.furthest[i]))));
-  // Where steps shorten slowly, what the next one promises is not all that is left.
-  const auto fast = will < promised / 16;
-  const B part = select<B>(fast, constant<B>(1e-11L), constant<B>(1e-13L));
-  const auto enough = !(part * best + rounding < will);
-  const auto again_hidden = hidden && !begins && !(will < promised * constant<B>(0.95L));
+  // Where steps shorten fast, the next one leaves of its promise what it is of the last; else that
+  // is not all that is left.
+  const auto fast = all < promised / 16 && !(zero < before);
+  const B after = select<B>(fast, all * (all / promised), all);
+  const auto enough = !(constant<B>(1e-13L) * best + rounding < after);
+  const auto again_hidden = hidden && !begins && !(all < (promised + gained) * constant<B>(0.95L));
   const auto lost = constant<B>(1e8L) < damping[0] || (begins && !finite);
-  const auto ends = takes && (enough || again_hidden) && !(zero < cut);
-  for (std::size_t i = 0; i < n; ++i)
-    tried.put(i, select<B>(moving, select<B>(lost && !ends, x[i], to[i]), tried[i]));
-  promise.put(0, select<B>(moving, will, promised));
+  // Derivatives far from that best mislead: where a point is lower only there, it is looked at
+  // there.
+  const auto apart = takes && !begins && old + noise < here;
+  const auto ends = takes && (enough || again_hidden) && !apart && !(zero < cut);
+  for (std::size_t i = 0; i < n; ++i) {
+    const B next_x = select<B>(apart, lowest[i], select<B>(lost && !ends, x[i], to[i]));
+    tried.put(i, select<B>(moving, next_x, tried[i]));
+  }
+  promise.put(0, select<B>(moving && !apart, will, promised));
   // Where no step leads lower, none that is worth one may be left.
   const auto settled = will < constant<B>(1e-6L) * best + 64 * rounding + noise;
   const B how = select<B>(ends || (lost && !begins && settled), one, select<B>(lost, B(2), zero));
@@ -271,16 +290,14 @@ void compare(const TexelUnknowns& u,
              const UnknownOf& of,
              const float* const* sums,
              TexelState& state) {
-  const std::size_t n = u.count;
+  const std::size_t n = u.linear > 0 ? u.linear : u.count;  // others stay
   const Rows x(state.x), tried(state.tried), scratch(state.scratch), cost(state.cost);
   const Rows h = scratch, g = scratch.from(entries(n)), to = g.from(n), inner = to.from(n);
-  const B now = gather(u, of, sums, tried, h, g);
-  const B least = now - step_inside(u, tried, h, g, B(0), 3, to, inner);
+  const B now = gather(u, n, of, sums, tried, h, g);
+  const B least = now - step_inside(u, n, tried, h, g, B(0), 3, to, inner);
   const auto lower = least < cost[0];
-  for (std::size_t i = 0; i < n; ++i) {
-    x.put(i, select<B>(lower, to[i], x[i]));
-    tried.put(i, to[i]);
-  }
+  for (std::size_t i = 0; i < n; ++i) tried.put(i, to[i]);
+  for (std::size_t i = 0; i < u.count; ++i) x.put(i, select<B>(lower, tried[i], x[i]));
   cost.put(0, select<B>(lower, least, cost[0]));
 }
 
@@ -313,7 +330,7 @@ void invert(const TexelUnknowns& u, TexelState& state, bool judged, float* left,
       m.put(entry(i, j), h[entry(i, j)] * (free[i] * free[j]) * root[i] * root[j]);
     m.put(entry(i, i), one);
   }
-  factorise(u, m, per_pivot);
+  factorise(u, n, m, per_pivot);
   const B most =
       constant<B>(2e5L);  // of a unit matrix: the rest has 5e-6 of an unknown for its own
   for (std::size_t i = 0; i < n && !judged; ++i)
@@ -321,7 +338,7 @@ void invert(const TexelUnknowns& u, TexelState& state, bool judged, float* left,
   for (std::size_t k = 0; k < n; ++k) {
     const Rows column = inverse.from(k * n);
     for (std::size_t i = 0; i < n; ++i) column.put(i, B(i == k ? 1.0F : 0.0F));
-    solve(u, m, per_pivot, column);
+    solve(u, n, m, per_pivot, column);
   }
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t j = 0; j < n; ++j) {
@@ -397,13 +414,11 @@ void angles(const TexelDirections& d) {
     return Coordinates<B>{with(x), with(y), with(z)};
   };
   const Turned turned(d.turn);
-  const B zero(0), one(1), harmless = constant<B>(0.5L), least(d.least);
-  const bool keeps = d.least > 0;
+  const B zero(0), one(1), harmless = constant<B>(0.5L);
   for (std::size_t i = 0; i < d.samples; ++i) {
-    auto a = angles_between(in_frame(d.light, i), in_frame(d.view, i));
+    const auto a = angles_between(in_frame(d.light, i), in_frame(d.view, i));
     const auto above = zero < a.nol && zero < a.nov && zero <= a.noh;
     store<B>(d.above + i * lanes<B>, select<B>(above, one, zero));
-    if (keeps) a.nol = max<B>(a.nol, least), a.nov = max<B>(a.nov, least);
     const std::array all{a.nol,
                          a.nov,
                          a.noh,
@@ -416,7 +431,7 @@ void angles(const TexelDirections& d) {
                          turned.x(a.xov, a.yov),
                          turned.y(a.xov, a.yov)};
     for (std::size_t k = 0; k < all.size(); ++k)
-      store<B>(d.angles[k] + i * lanes<B>, keeps ? all[k] : select<B>(above, all[k], harmless));
+      store<B>(d.angles[k] + i * lanes<B>, select<B>(above, all[k], harmless));
   }
 }
 
@@ -428,6 +443,28 @@ void turn(const TexelTurn& t) {
       store<B>(t.to[k] + i, turned.x(x, y));
       store<B>(t.to[k + 1] + i, turned.y(x, y));
     }
+}
+
+/// n = m/|m|, m = (t, u, 1):  ∂(n·a)/∂t = (a_x − n·a n_x)/|m|
+void tilt(const TexelTilt& t) {
+  const B along_x = load<B>(t.tilt), along_y = load<B>(t.tilt + padding), least(t.least);
+  const B z = B(1) / sqrt(along_x * along_x + along_y * along_y + B(1)), x = along_x * z,
+          y = along_y * z;
+  for (std::size_t i = 0; i < t.samples * lanes<B>; i += lanes<B>) {
+    std::array<B, 3> cosine;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const auto of = [&](std::size_t axis) { return load<B>(t.from[3 * k + axis] + i); };
+      cosine[k] = x * of(0) + y * of(1) + z * of(2);
+      store<B>(t.to[4 + 2 * k] + i, (of(0) - cosine[k] * x) * z);
+      store<B>(t.to[5 + 2 * k] + i, (of(1) - cosine[k] * y) * z);
+    }
+    const auto h = [&](std::size_t axis) { return load<B>(t.from[axis] + i); };
+    const B a = y * h(2) - z * h(1), b = z * h(0) - x * h(2), c = x * h(1) - y * h(0);
+    store<B>(t.to[0] + i, max<B>(cosine[1], least));
+    store<B>(t.to[1] + i, max<B>(cosine[2], least));
+    store<B>(t.to[2] + i, cosine[0]);
+    store<B>(t.to[3] + i, a * a + b * b + c * c);
+  }
 }
 
 void read(const TexelRows& t) {
@@ -477,7 +514,7 @@ constexpr std::array<WorthOfColumns, max_columns + 1> worth_table(std::index_seq
 template <Role role>
 std::array<std::span<const TexelTerms<float>::Derivatives>, 2> texel_terms_of();
 std::span<const TexelTerms<float>::Derivatives> texel_terms_of_files();
-std::span<const FusedTexels> fused_texels();
+std::array<std::span<const FusedTexels>, 2> fused_texels();
 
 #define GONIO_TEXT_OF(name) #name
 #define GONIO_TEXT(name) GONIO_TEXT_OF(name)
@@ -504,10 +541,12 @@ LaneKernels lane_table() {
           lanes<B>,
           all_terms(0),
           all_terms(1),
-          fused_texels(),
+          fused_texels()[0],
+          fused_texels()[1],
           worth_table(std::make_index_sequence<max_columns>{}),
           angles,
           turn,
+          tilt,
           read,
           descend,
           compare,

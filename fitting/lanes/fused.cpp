@@ -16,39 +16,40 @@ template <class Fit, Link link>
 constexpr TexelPass normal = Fit::template pass<link, NormalSums, TexelArguments>;
 template <class Fit, Link link>
 constexpr TexelPass worth = Fit::template pass<link, WorthSums, TexelArguments>;
-template <class Model, bool shared>
-using Fit = FusedNormal<float, Model, TexelsAsLanes<shared>>;
-template <class Model, bool shared>
-using LinearFit = FusedNormal<float, Model, TexelsAsLanes<shared>, false>;
 
-template <class Model>
+template <class Model, class Own, class All>
 constexpr FusedTexels entry() {
   constexpr auto id = Link::identity, log = Link::log;
-  using Lanes = Fit<Model, false>;
-  using Shared = Fit<Model, true>;
+  using Lanes = FusedNormal<float, Model, Own>;
+  using Shared = FusedNormal<float, Model, All>;
+  using LinearLanes = FusedNormal<float, Model, Own, false>;
+  using LinearShared = FusedNormal<float, Model, All, false>;
   return {ids_of<float>(Model{}),
           {Lanes::columns(), Lanes::K - 1},
-          {LinearFit<Model, false>::columns(), LinearFit<Model, false>::K - 1},
+          {LinearLanes::columns(), LinearLanes::K - 1},
           {{{normal<Lanes, id>, normal<Lanes, log>}, {normal<Shared, id>, normal<Shared, log>}}},
-          {normal<LinearFit<Model, false>, id>, normal<LinearFit<Model, true>, id>},
+          {normal<LinearLanes, id>, normal<LinearShared, id>},
           {{{worth<Lanes, id>, worth<Lanes, log>}, {worth<Shared, id>, worth<Shared, log>}}}};
 }
-template <class... Models>
+template <class Own, class All, class... Models>
 constexpr auto table(FusedList<Models...>) {
-  return std::array{entry<Models>()...};
+  return std::array{entry<Models, Own, All>()...};
 }
 
+using OfGgx = ModelTerms<TermList<Lambert>, TermList<Ggx, SmithGgxCorrelated, Schlick>>;
+using OfGtr = ModelTerms<TermList<Lambert>, TermList<Gtr, SmithGgxCorrelated, Schlick>>;
 using Hot =
-    FusedList<ModelTerms<TermList<Lambert>, TermList<Ggx, SmithGgxCorrelated, Schlick>>,
+    FusedList<OfGgx,
               ModelTerms<TermList<Lambert>, TermList<GgxAniso, SmithGgxAnisoCorrelated, Schlick>>,
-              ModelTerms<TermList<Lambert>, TermList<Gtr, SmithGgxCorrelated, Schlick>>>;
+              OfGtr>;
 
 }  // namespace
 
-std::span<const FusedTexels> fused_texels();
-std::span<const FusedTexels> fused_texels() {
-  static constexpr auto all = table(Hot{});
-  return all;
+std::array<std::span<const FusedTexels>, 2> fused_texels();
+std::array<std::span<const FusedTexels>, 2> fused_texels() {
+  static constexpr auto given = table<TexelsAsLanes<false>, TexelsAsLanes<true>>(Hot{});
+  static constexpr auto tilted = table<TiltedTexels, TiltedTexels>(FusedList<OfGgx, OfGtr>{});
+  return {given, tilted};
 }
 
 }  // namespace gonio::inline GONIO_ARCH

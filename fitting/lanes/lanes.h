@@ -20,10 +20,12 @@ namespace gonio {
 struct TexelArguments : NormalArguments<float> {
   /// Inverse of the bread, of each channel's own derivatives: lower triangle row by row, [entry][padding]; of `worth` alone.
   std::array<const float*, max_channels> inverse{};
+  /// 1/NoL of the normals given, [sample][lane]; of tilted ones.
+  const float* per_cosine = nullptr;
 };
 using TexelPass = void (*)(const TexelArguments&);
 
-/// Derivatives that a pass makes, after the residual.
+/// Derivatives that a pass makes, after the residual.  Where normals tilt, D's parameters are followed by the two tilts.
 struct TexelColumns {
   std::array<FusedColumn, max_columns - 1> of{};
   std::size_t count = 0;
@@ -57,10 +59,19 @@ struct TexelDirections {
   const float *light, *view;
   const float* frame;  ///< tangent, bitangent and normal: [9][padding]
   const float* turn;   ///< see TexelTurn
-  /// 0: a sample whose light or view is below the surface gets `above` 0 and 0.5 for all angles.  Else cosines are no less than this.
-  float least;
-  float* above;                   ///< [sample][lane]: 1 where light and view are above the surface
+  /// [sample][lane]: 1 where light and view are above the surface; elsewhere 0, and all angles are 0.5
+  float* above;
   std::array<float*, 11> angles;  ///< [sample][lane], as a Block with its frame has them
+};
+
+/// Normals that tilt: n ~ (t, u, 1) in the frame that coordinates are of.
+struct TexelTilt {
+  std::size_t samples;
+  const float* tilt;                 ///< t and u: [2][padding]
+  float least;                       ///< cosines of light and view are no less
+  std::array<const float*, 9> from;  ///< x, y and z of half vector, light and view
+  /// NoL, NoV, NoH, sin²θ_h; then the derivatives of NoH, NoL and NoV by t and by u, in a Block's frame
+  std::array<float*, 10> to;
 };
 
 /// Tangents that turn about their normals.
@@ -87,6 +98,7 @@ struct TexelRows {
 /// Unknowns of a texel, in the order of elimination: those of one channel alone, channel by channel, then the others.
 struct TexelUnknowns {
   std::size_t count = 0, channels = 0;
+  std::size_t linear = 0;          ///< the first of them, in which residuals are linear
   std::vector<std::size_t> slot;   ///< of each; value_count and one more: the normal's tilt
   std::vector<std::size_t> first;  ///< of each row of the matrix, its first column that is not 0
   std::vector<float> low, high;
@@ -99,13 +111,14 @@ using UnknownOf = std::vector<std::vector<std::size_t>>;
 
 /// A register of texels on their way: arrays of `padding` numbers a row.
 struct TexelState {
-  float* x;        ///< [unknown]: best so far
-  float* tried;    ///< [unknown]: where to look next; in the end, where it ends
-  float* h;        ///< [unknown (unknown + 1)/2 + unknown], lower triangle, by steps
-  float* g;        ///< [unknown], by steps
-  float* cost;     ///< one row: of x; infinite before the first
+  float* x;      ///< [unknown]: best so far
+  float* tried;  ///< [unknown]: where to look next; in the end, where it ends
+  float* h;      ///< [unknown (unknown + 1)/2 + unknown], lower triangle, by steps
+  float* g;      ///< [unknown], by steps
+  float* cost;  ///< one row: of x with its linear unknowns at their best; infinite before the first
+  float* gain;  ///< one row: how much lower that is than the cost of x
   float* damping;  ///< one row
-  float* promise;  ///< one row: what the last step from x promised of the cost
+  float* promise;  ///< one row: what the last step from x promised of that cost
   float* signal;   ///< one row: Σ (w target)², below whose rounding nothing is to be gained
   float* done;     ///< one row: 0 on its way; 1 there; 2 no step leads anywhere
   float* scratch;  ///< room for 3 matrices and 8 vectors
@@ -115,11 +128,12 @@ struct LaneKernels {
   std::string_view instruction_set;
   std::size_t lanes;
   std::span<const TexelTerms<float>::Derivatives> terms,
-      tilted;  ///< tilted: nullptr of anisotropic terms
-  std::span<const FusedTexels> fused;
+      tilted;                                         ///< tilted: nullptr of anisotropic terms
+  std::span<const FusedTexels> fused, fused_tilted;   ///< tilted: whatever is shared
   std::array<WorthOfColumns, max_columns + 1> worth;  ///< [k]: k columns, r one of them
   void (*angles)(const TexelDirections&);
   void (*turn)(const TexelTurn&);
+  void (*tilt)(const TexelTilt&);
   void (*read)(const TexelRows&);
   /// Sums of a pass at `tried` → the state, and the next `tried`.
   /// \return whether any texel is on its way

@@ -3,27 +3,10 @@
 /// The terms of a role over texels, one loop each.  Included by the one file of each role, compiled per instruction set.
 
 #include "brdf/kernel/term_kernels.h"
+#include "brdf/kernel/tilt.h"
 #include "brdf/model/derivatives.h"
 
 namespace gonio::inline GONIO_ARCH {
-
-/// Angles as numbers that carry their derivatives by the tilt of the normal, n' = n + t x + u y, as unknowns at, at + 1 of N:
-///
-///   ∂NoL/∂t = XoL,   ∂|n×h|²/∂t = −2 NoH XoH
-template <std::size_t N, class B>
-auto tilting(const FrameAngles<B>& a) {
-  using T = Dual<B, N, true>;
-  const auto along = [](const B& value, const B& x, const B& y) {
-    T t(value);
-    t.d[N - 2] = x;
-    t.d[N - 1] = y;
-    return t;
-  };
-  const B by_noh = a.noh * B(-2);
-  return Angles<T>{along(a.nol, a.xol, a.yol), along(a.nov, a.xov, a.yov),
-                   along(a.noh, a.xoh, a.yoh), T(a.voh),
-                   along(a.sin2_theta_h, by_noh * a.xoh, by_noh * a.yoh)};
-}
 
 template <template <class> class Term>
 void tilted(const Block<float>& x, const float* p, float* value, float* const* d) {

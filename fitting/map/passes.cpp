@@ -15,7 +15,8 @@ constexpr std::size_t entries_of(std::size_t k) {
 constexpr std::size_t most_entries = entries_of(max_columns - 1);
 
 std::size_t slot_of(const Model& m, const TermUse& t, std::size_t parameter, std::size_t channel) {
-  if (parameter == t.parameters.size()) return m.tangent()->first;
+  if (const std::size_t n = t.parameters.size(); parameter >= n)
+    return m.tangent() ? m.tangent()->first : m.value_count + parameter - n;
   return m.parameters[t.parameters[parameter]].slot(channel);
 }
 
@@ -65,8 +66,8 @@ TexelPasses::TexelPasses(const TexelTask& task, const Kernels<float>& k, const L
   for (std::size_t c = 0; c < max_channels; ++c)
     sums_[c] = memory_.data() + c * most_entries * padding;
   const auto ids = fused_ids(m);
-  if (ids && !task.asked.refine_normals)
-    for (const auto& f : lanes.fused)
+  if (ids)
+    for (const auto& f : task.asked.refine_normals ? lanes.fused_tilted : lanes.fused)
       if (f.ids == *ids) fused_ = &f;
   if (fused_) {
     all_ = unknowns_of(task, terms_, fused_->columns);
@@ -76,13 +77,14 @@ TexelPasses::TexelPasses(const TexelTask& task, const Kernels<float>& k, const L
   const std::vector<bool>& free = task.problem.free.mask();
   std::vector<bool> no_shape = free;
   for (std::size_t s = 0; s < no_shape.size(); ++s) no_shape[s] = no_shape[s] && !task.is_shape[s];
-  TexelTerms<float> given{lanes.terms}, all = given;
+  TexelTerms<float> given{lanes.terms, nullptr}, all = given;
   if (task.asked.refine_normals) {
     for (auto& column : cosine_) column = Column<float>(Scratch<float>::block);
-    cosine_column_.value = cosine_[0].data();
+    cosine_column_.value = held_cosine_.value = cosine_[0].data();
     for (std::size_t t = 0; t < 2; ++t)
       cosine_column_.d.emplace_back(m.value_count + t, cosine_[1 + t].data());
     all = {lanes.tilted, &cosine_column_};
+    given.cosine = &held_cosine_;
   }
   composed_all_ = std::make_unique<Composed>(task, free, k, all);
   composed_linear_ = std::make_unique<Composed>(task, std::move(no_shape), k, given);
@@ -105,6 +107,7 @@ void TexelPasses::run(TexelPass pass, const LaneSamples& s, const float* values,
   a.offset = link == Link::log ? static_cast<float>(task_.asked.offset) : 0;
   a.sums = sums_;
   a.cost = cost_.data();
+  a.per_cosine = s.per_cosine;
   for (std::size_t t = 0; t < terms_.size(); ++t)
     for (std::size_t c = 0; c < m.channels; ++c) {
       float* const p = parameters_.data() + (t * max_channels + c) * max_parameters * padding;
@@ -125,7 +128,7 @@ void TexelPasses::run(
     const auto x = s.x.part(at, std::min(Scratch<float>::block, s.x.n - at));
     if (model.terms.cosine)
       for (std::size_t i = 0; i < x.n; ++i) {
-        const float per = 1 / s.cosine[at + i];
+        const float per = s.per_cosine[at + i];
         cosine_[0][i] = x.nol[i] * per;
         cosine_[1][i] = x.frame[2][i] * per;
         cosine_[2][i] = x.frame[3][i] * per;

@@ -14,8 +14,8 @@ struct LaneSamples {
   Block<float> x;       ///< n = samples times lanes
   bool shared = false;  ///< angles and weights are [sample], else [sample][lane]
   std::array<const float*, max_channels> target{}, weight{};
-  const float* cosine =
-      nullptr;  ///< NoL of the given normals [sample][lane]; where normals are refined
+  const float* per_cosine =
+      nullptr;  ///< 1/NoL of the given normals [sample][lane]; where normals are refined
 };
 
 class TexelPasses {
@@ -62,7 +62,8 @@ class TexelPasses {
   std::vector<const TermUse*> terms_;
   Link link_;
   std::array<Column<float>, 3> cosine_;
-  DualColumn<float> cosine_column_;
+  DualColumn<float> cosine_column_,
+      held_cosine_;  ///< held: without derivatives, which no term then has, either
   std::unique_ptr<Composed> composed_all_, composed_linear_;
   UnknownOf all_, linear_;
   TexelArguments arguments_;

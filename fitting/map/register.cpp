@@ -12,14 +12,12 @@ namespace gonio {
 namespace {
 
 /// Puts a lane's frame, tangent, bitangent and normal.
-/// \return  the bitangent
-Direction put_frame(Column<float>& to, std::size_t lane, const Direction& x, const Direction& z) {
+void put_frame(Column<float>& to, std::size_t lane, const Direction& x, const Direction& z) {
   const Vector y = cross(vector_of(z), vector_of(x));
   std::size_t k = 0;
   for (const Vector& axis : {vector_of(x), y, vector_of(z)})
     for (const double part : {axis.x, axis.y, axis.z})
       to[k++ * padding + lane] = static_cast<float>(part);
-  return {y.x, y.y, y.z};
 }
 
 }  // namespace
@@ -45,12 +43,12 @@ TexelRegister::TexelRegister(const TexelTask& task,
     weight_[c] = Column<float>(room);
   }
   for (auto* c : {&light_, &view_}) *c = Column<float>(3 * room);
-  for (auto* c : {&cosine_, &slope_}) *c = Column<float>(room, 1);
-  for (auto* c : {&frame_, &base_}) *c = Column<float>(9 * padding);
+  for (auto* c : {&per_cosine_, &slope_}) *c = Column<float>(room, 1);
+  frame_ = Column<float>(9 * padding);
   turn_ = Column<float>(4 * padding);
   usable_ = Column<float>(room);
-  if (task.turns())
-    for (auto& c : unturned_) c = Column<float>(room);
+  if (task.turns() || task.asked.refine_normals)
+    for (auto& c : given_) c = Column<float>(room);
   read_shared();
 }
 
@@ -98,18 +96,16 @@ void TexelRegister::put_frames(std::span<const std::size_t> texels) {
     const double across = std::hypot(z.y, z.z);
     const Direction x = across > 1e-6 ? Direction{across, -z.x * z.y / across, -z.x * z.z / across}
                                       : Direction{0, 0, z.x > 0 ? -1.0 : 1.0};
-    put_frame(base_, l, x, z);
+    put_frame(frame_, l, x, z);
   }
-  std::copy_n(base_.data(), 9 * padding, frame_.data());
   for (std::size_t k = 0; k < 4; ++k)
     std::fill_n(turn_.data() + k * padding, padding, k == 0 || k == 3 ? 1.0F : 0.0F);
 }
 
 /// Angles of all samples; those below the surface get harmless ones.
-void TexelRegister::make_angles(float least) {
-  TexelDirections d{in_.images,   in_.shared,     light_.data(),
-                    view_.data(), frame_.data(),  turn_.data(),
-                    least,        usable_.data(), {}};
+void TexelRegister::make_angles() {
+  TexelDirections d{in_.images,    in_.shared,   light_.data(),  view_.data(),
+                    frame_.data(), turn_.data(), usable_.data(), {}};
   for (std::size_t k = 0; k < angles_.size(); ++k) d.angles[k] = angles_[k].data();
   lanes_.angles(d);
 }
@@ -155,30 +151,38 @@ void TexelRegister::gather_lanes(std::span<const std::size_t> texels) {
   if (!same_angles_) {
     put_frames(texels);
     make_angles();
-    for (std::size_t k = 0; k < unturned_.size() && task_.turns(); ++k)
-      std::copy_n(angles_[5 + k].data(), full, unturned_[k].data());
+    constexpr std::array<std::size_t, 9> of{5, 6, 7, 8, 9, 10, 2, 0, 1};
+    for (std::size_t k = 0; k < of.size() && given_[k].data(); ++k)
+      std::copy_n(angles_[of[k]].data(), full, given_[k].data());
   }
-  if (task_.asked.refine_normals) std::copy_n(angles_[0].data(), room, cosine_.data());
+  if (task_.asked.refine_normals)
+    std::transform(angles_[0].data(), angles_[0].data() + room, per_cosine_.data(),
+                   [](float c) { return 1 / c; });
   std::fill_n(signal_.data(), padding, 0.0F);
   count_.fill(0);
   const bool l2 = task_.asked.metric == Metric::l2_cosine, log = task_.asked.metric == Metric::log;
   const auto offset = static_cast<float>(task_.asked.offset);
+  const float faintest_sum = l2 ? -1 : static_cast<float>(faintest);
+  float* const signal = signal_.data();
   // A 0 may be light from below the surface, which says no more than that: where normals are
   // unknown it is left out.
   const float least = task_.asked.refine_normals ? std::numeric_limits<float>::min() : 0;
   for (std::size_t c = 0; c < in_.channels; ++c)
     for (std::size_t i = 0; i < in_.images; ++i) {
       const float* const from = in_.values.data() + (i * in_.channels + c) * in_.texels;
+      float* const target = target_[c].data() + i * width_;
+      float* const weight = weight_[c].data() + i * width_;
+      const float* const usable = usable_.data() + i * width_;
+      const float* const nol = angles_[0].data() + i * width_;
+      for (std::size_t l = 0; l < width_; ++l) target[l] = from[texels[l]];
       for (std::size_t l = 0; l < width_; ++l) {
-        const float y = from[texels[l]], sum = y + offset;
-        const std::size_t at = i * width_ + l;
-        const bool use = usable_[at] > 0 && y >= least && y <= 1e18F &&
-                         (l2 || sum > static_cast<float>(faintest));
-        const float w = use ? (l2 ? angles_[0][at] : 1 / sum) : 0;
-        target_[c][at] = use ? y : 0;
-        weight_[c][at] = w;
-        count_[l] += use ? 1.0F : 0.0F;
-        signal_[l] += log ? (use ? 1.0F : 0.0F) : w * target_[c][at] * (w * target_[c][at]);
+        const float y = target[l], sum = y + offset;
+        const bool use = (usable[l] > 0) & (y >= least) & (y <= 1e18F) & (sum > faintest_sum);
+        const float w = use ? (l2 ? nol[l] : 1 / sum) : 0, one = use ? 1.0F : 0.0F;
+        target[l] = use ? y : 0;
+        weight[l] = w;
+        count_[l] += one;
+        signal[l] += log ? one : w * target[l] * (w * target[l]);
       }
     }
   samples_ = {};
@@ -189,7 +193,7 @@ void TexelRegister::gather_lanes(std::span<const std::size_t> texels) {
     samples_.target[c] = target_[c].data();
     samples_.weight[c] = weight_[c].data();
   }
-  samples_.cosine = cosine_.data();
+  samples_.per_cosine = per_cosine_.data();
 }
 
 void TexelRegister::gather(std::span<const std::size_t> texels) {
@@ -224,8 +228,8 @@ void TexelRegister::turn(const float* deg) {
     turn_[2 * padding + l] = -s;
   }
   TexelTurn about{in_.images, turn_.data(), {}, {}};
-  for (std::size_t k = 0; k < unturned_.size(); ++k)
-    about.from[k] = unturned_[k].data(), about.to[k] = angles_[5 + k].data();
+  for (std::size_t k = 0; k < about.from.size(); ++k)
+    about.from[k] = given_[k].data(), about.to[k] = angles_[5 + k].data();
   lanes_.turn(about);
 }
 
@@ -238,26 +242,25 @@ bool TexelRegister::is_at(const float* unknowns, std::size_t count) {
 
 void TexelRegister::tilt(const float* tilt) {
   if (is_at(tilt, 2)) return;
-  // n = m/|m|, m = n₀ + t x₀ + u y₀; what t and u do to n, a = (x₀ − n (n·x₀))/|m|, in the frame of
-  // n.
-  for (std::size_t l = 0; l < width_; ++l) {
-    const Direction x0 = axis(base_, 0, l), y0 = axis(base_, 1, l), z0 = axis(base_, 2, l);
-    const double t = double{tilt[l]}, u = double{tilt[padding + l]},
-                 length = std::sqrt(1 + t * t + u * u);
-    const Direction z{(z0.x + t * x0.x + u * y0.x) / length, (z0.y + t * x0.y + u * y0.y) / length,
-                      (z0.z + t * x0.z + u * y0.z) / length};
-    // x of the new frame: x₀ less its part along z.
-    const double along = dot(x0, z), across = std::sqrt(1 - along * along);
-    const Direction x{(x0.x - along * z.x) / across, (x0.y - along * z.y) / across,
-                      (x0.z - along * z.z) / across};
-    const Direction y = put_frame(frame_, l, x, z);
-    std::size_t k = 0;
-    for (const auto& by : {x0, y0})  // x and y are across z: its part drops out
-      for (const auto& a : {x, y})
-        turn_[k++ * padding + l] = static_cast<float>(dot(by, a) / length);
-  }
   constexpr float just_above = 1e-3F;  // stays what a refined normal puts below the surface
-  make_angles(just_above);
+  TexelTilt about{in_.images, tilt, just_above, {}, {}};
+  for (std::size_t k = 0; k < 3; ++k)
+    about.from[3 * k] = given_[2 * k].data(), about.from[3 * k + 1] = given_[2 * k + 1].data(),
+                   about.from[3 * k + 2] = given_[6 + k].data();
+  constexpr std::array<std::size_t, 10> to{0, 1, 2, 4, 5, 6, 7, 8, 9, 10};
+  for (std::size_t k = 0; k < to.size(); ++k) about.to[k] = angles_[to[k]].data();
+  lanes_.tilt(about);
+}
+
+float TexelRegister::normal(std::size_t k, std::size_t lane) const {
+  const auto tilt = [&](std::size_t axis) {
+    return at_.empty() ? 0 : double{at_[axis * padding + lane]};
+  };
+  const auto part = [&](std::size_t axis) {
+    return double{frame_[(3 * axis + k) * padding + lane]};
+  };
+  return static_cast<float>((tilt(0) * part(0) + tilt(1) * part(1) + part(2)) /
+                            std::sqrt(1 + square(tilt(0)) + square(tilt(1))));
 }
 
 std::size_t TexelRegister::images_with_light(std::size_t lane) const {
@@ -268,8 +271,8 @@ std::size_t TexelRegister::images_with_light(std::size_t lane) const {
   return lit;
 }
 
-Direction TexelRegister::axis(const Column<float>& frame, std::size_t k, std::size_t lane) const {
-  const auto of = [&](std::size_t j) { return double{frame[(3 * k + j) * padding + lane]}; };
+Direction TexelRegister::axis(std::size_t k, std::size_t lane) const {
+  const auto of = [&](std::size_t j) { return double{frame_[(3 * k + j) * padding + lane]}; };
   return {of(0), of(1), of(2)};
 }
 
@@ -283,35 +286,37 @@ Direction TexelRegister::of_image(const Column<float>& directions,
   return {of(0), of(1), of(2)};
 }
 
-std::optional<double> TexelRegister::light_of(std::size_t image, std::size_t lane) const {
-  const std::size_t at = image * width_ + lane;
-  double sum = 0;
-  bool any = false;
-  for (std::size_t c = 0; c < in_.channels; ++c)
-    if (weight_[c][at] > 0) any = true, sum += double{target_[c][at]};
-  return any ? std::optional(sum * double{cosine_[at]}) : std::nullopt;
+std::vector<TexelRegister::Sent> TexelRegister::sent_by(std::size_t lane) const {
+  std::vector<Sent> all;
+  for (std::size_t i = 0; i < in_.images; ++i) {
+    const std::size_t at = i * width_ + lane;
+    double sum = 0, count = 0;
+    for (std::size_t c = 0; c < in_.channels; ++c)
+      if (weight_[c][at] > 0) ++count, sum += double{target_[c][at]};
+    if (count == 0) continue;
+    const Direction l = of_image(light_, i, lane), v = of_image(view_, i, lane);
+    const Direction h{l.x + v.x, l.y + v.y, l.z + v.z};
+    const double per = 1 / std::sqrt(dot(h, h));
+    all.push_back({l, {per * h.x, per * h.y, per * h.z}, sum / count / double{per_cosine_[at]}});
+  }
+  return all;
 }
 
 /// Normal times albedo of a matt surface that sends what was measured, by least squares of ρ n·l, what is brighter counting less:
 /// highlights are.  0 where the lights lie in a plane.
-Direction TexelRegister::matt_normal(std::size_t lane) const {
+Direction TexelRegister::matt_normal(const std::vector<Sent>& sent) {
   constexpr int rounds = 4;
   Direction m{};
   for (int round = 0; round < rounds; ++round) {
     std::array<double, 6> h{};  // xx xy xz yy yz zz
     std::array<double, 3> g{};
-    for (std::size_t i = 0; i < in_.images; ++i) {
-      const std::size_t at = i * width_ + lane;
-      const Direction l = of_image(light_, i, lane);
-      for (std::size_t c = 0; c < in_.channels; ++c) {
-        if (!(weight_[c][at] > 0)) continue;
-        const double y = double{target_[c][at]} * double{cosine_[at]}, matt = dot(m, l);
-        const double w = round > 0 && y > matt ? square(std::max(matt, 0.0) / y) : 1;
-        h[0] += w * l.x * l.x, h[1] += w * l.x * l.y;
-        h[2] += w * l.x * l.z, h[3] += w * l.y * l.y;
-        h[4] += w * l.y * l.z, h[5] += w * l.z * l.z;
-        g[0] += w * y * l.x, g[1] += w * y * l.y, g[2] += w * y * l.z;
-      }
+    for (const auto& [l, half, y] : sent) {
+      const double matt = dot(m, l);
+      const double w = round > 0 && y > matt ? square(std::max(matt, 0.0) / y) : 1;
+      const double x = w * l.x, u = w * l.y, z = w * l.z;
+      h[0] += x * l.x, h[1] += x * l.y, h[2] += x * l.z;
+      h[3] += u * l.y, h[4] += u * l.z, h[5] += z * l.z;
+      g[0] += y * x, g[1] += y * u, g[2] += y * z;
     }
     const std::array c{h[3] * h[5] - h[4] * h[4], h[2] * h[4] - h[1] * h[5],
                        h[1] * h[4] - h[2] * h[3], h[0] * h[5] - h[2] * h[2],
@@ -327,37 +332,36 @@ Direction TexelRegister::matt_normal(std::size_t lane) const {
 }
 
 /// Sum of the half vectors of all images by the square of what is brighter than half of them: near the middle of a highlight.
-Direction TexelRegister::highlight_normal(std::size_t lane) const {
+Direction TexelRegister::highlight_normal(const std::vector<Sent>& sent) {
+  if (sent.empty()) return {};
   std::vector<double> all;
-  for (std::size_t i = 0; i < in_.images; ++i)
-    if (const auto y = light_of(i, lane)) all.push_back(*y);
-  if (all.empty()) return {};
+  for (const auto& s : sent) all.push_back(s.y);
   const double middle = median(all);
   Direction m{};
-  for (std::size_t i = 0; i < in_.images; ++i) {
-    const auto y = light_of(i, lane);
-    if (!y || *y <= middle) continue;
-    const Direction l = of_image(light_, i, lane), v = of_image(view_, i, lane);
-    const Direction h{l.x + v.x, l.y + v.y, l.z + v.z};
-    const double w = square(*y - middle) / std::sqrt(dot(h, h));
+  for (const auto& [l, h, y] : sent) {
+    const double w = square(std::max(y - middle, 0.0));
     m = {m.x + w * h.x, m.y + w * h.y, m.z + w * h.z};
   }
   return m;
 }
 
-void TexelRegister::find_tilt(Tilt tilt,
-                              std::span<const float> low,
-                              std::span<const float> high,
-                              float* to) const {
-  for (std::size_t l = 0; l < width_; ++l) {
-    const Direction m = tilt == Tilt::matt ? matt_normal(l) : highlight_normal(l);
-    const double along = dot(m, axis(base_, 2, l)), length = std::sqrt(dot(m, m));
+void TexelRegister::find_tilts(std::span<const float> low,
+                               std::span<const float> high,
+                               float* matt,
+                               float* highlight) const {
+  const auto put = [&](const Direction& m, std::size_t l, float* to) {
+    const double along = dot(m, axis(2, l)), length = std::sqrt(dot(m, m));
     constexpr double steepest = 0.2;  // cosine
     for (std::size_t k = 0; k < 2; ++k)
       to[k * padding + l] =
           along > steepest * length
-              ? std::clamp(static_cast<float>(dot(m, axis(base_, k, l)) / along), low[k], high[k])
+              ? std::clamp(static_cast<float>(dot(m, axis(k, l)) / along), low[k], high[k])
               : 0;
+  };
+  for (std::size_t l = 0; l < width_; ++l) {
+    const auto sent = sent_by(l);
+    put(matt_normal(sent), l, matt);
+    put(highlight_normal(sent), l, highlight);
   }
 }
 

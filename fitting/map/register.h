@@ -34,9 +34,11 @@ class TexelRegister {
   /// Tilts the normals by what is added to them along their tangents and bitangents.  \param tilt  [2][padding]
   void tilt(const float* tilt);
   /// Tilts from which a fit may begin: where matt surfaces would send the light that was measured, and where the highlight is.
-  enum class Tilt { matt, highlight };
-  /// \param low, high  bounds of the two unknowns   \param to  [2][padding]; 0 where lights or values say nothing
-  void find_tilt(Tilt, std::span<const float> low, std::span<const float> high, float* to) const;
+  /// \param low, high  bounds of the two unknowns   \param matt, highlight  [2][padding]; 0 where lights or values say nothing
+  void find_tilts(std::span<const float> low,
+                  std::span<const float> high,
+                  float* matt,
+                  float* highlight) const;
 
   const LaneSamples& samples() const { return samples_; }
   /// Σ (w target)², [padding]
@@ -46,7 +48,7 @@ class TexelRegister {
   /// Number of images in which any channel is compared.
   std::size_t images_with_light(std::size_t lane) const;
   /// Component of the normal as tilted.
-  float normal(std::size_t k, std::size_t lane) const { return frame_[(6 + k) * padding + lane]; }
+  float normal(std::size_t k, std::size_t lane) const;
 
  private:
   void read_shared();
@@ -55,14 +57,17 @@ class TexelRegister {
   bool gather_shared(std::size_t first);
   void gather_lanes(std::span<const std::size_t> texels);
   void put_frames(std::span<const std::size_t> texels);
-  /// \param least  see TexelDirections
-  void make_angles(float least = 0);
-  Direction axis(const Column<float>& frame, std::size_t k, std::size_t lane) const;
+  void make_angles();
+  Direction axis(std::size_t k, std::size_t lane) const;
   Direction of_image(const Column<float>& directions, std::size_t image, std::size_t lane) const;
-  /// Sum of a lane's compared values of an image, over channels, times n·l of the given normal; none without values.
-  std::optional<double> light_of(std::size_t image, std::size_t lane) const;
-  Direction matt_normal(std::size_t lane) const;
-  Direction highlight_normal(std::size_t lane) const;
+  /// Of each image with any, its direction of light or half vector and the light sent, the mean of channels.
+  struct Sent {
+    Direction light, half;
+    double y;
+  };
+  std::vector<Sent> sent_by(std::size_t lane) const;
+  static Direction matt_normal(const std::vector<Sent>&);
+  static Direction highlight_normal(const std::vector<Sent>&);
 
   const TexelTask& task_;
   const TexelSamples& in_;
@@ -72,12 +77,13 @@ class TexelRegister {
 
   std::array<Column<float>, 11> angles_;
   std::array<Column<float>, max_channels> target_, weight_;
-  Column<float> light_, view_, cosine_, slope_;
-  Column<float> frame_, base_;  ///< tangents, bitangents and normals: as tried, and as given
-  Column<float> turn_;          ///< see TexelDirections
-  std::vector<float> at_;       ///< turns or tilts that angles are of; empty: as given
-  std::array<Column<float>, 6> unturned_;  ///< x and y before a tangent turns them
-  Column<float> usable_;                   ///< [sample][lane]: 1 above the surface as given
+  Column<float> light_, view_, per_cosine_, slope_;
+  Column<float> frame_;    ///< tangents, bitangents and normals, as given
+  Column<float> turn_;     ///< see TexelDirections
+  std::vector<float> at_;  ///< turns or tilts that angles are of; empty: as given
+  /// Coordinates before tangents turn or normals tilt them: x and y, then z, of half vector, light and view.
+  std::array<Column<float>, 9> given_;
+  Column<float> usable_;  ///< [sample][lane]: 1 above the surface as given
   LaneSamples samples_;
   Column<float> signal_;
   std::array<float, padding> count_{};

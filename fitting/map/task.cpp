@@ -141,7 +141,7 @@ bool is_linear(const Problem& p, const std::vector<bool>& shape) {
   return true;
 }
 
-TexelUnknowns unknowns_of(const Problem& p, bool tilts) {
+TexelUnknowns unknowns_of(const Problem& p, const std::vector<bool>& shape, bool tilts) {
   const Model& m = p.start.model;
   TexelUnknowns u;
   u.channels = m.channels;
@@ -169,8 +169,10 @@ TexelUnknowns unknowns_of(const Problem& p, bool tilts) {
     for (const auto& q : m.parameters)
       if (q.count > 1 && p.free.mask()[q.first + c]) add_slot(q, q.first + c, first);
   }
-  for (const auto& q : m.parameters)
-    if (q.count == 1 && p.free.mask()[q.first]) add_slot(q, q.first, 0);
+  for (const bool of_shape : {false, true})
+    for (const auto& q : m.parameters)
+      if (q.count == 1 && p.free.mask()[q.first] && shape[q.first] == of_shape)
+        add_slot(q, q.first, 0);
   constexpr double furthest = 12;  // tangent of the tilt along an axis: 85°
   for (std::size_t k = 0; tilts && k < 2; ++k)
     add(m.value_count + k, 0, -furthest, furthest, false);
@@ -203,8 +205,8 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
                       "normal are known",
                       foreign::text_of(own->function->name)));
   }
-  unknowns = unknowns_of(problem, o.refine_normals);
   is_shape = shapes_of(model());
+  unknowns = unknowns_of(problem, is_shape, o.refine_normals);
   unknown_of.assign(model().value_count + 2, unknowns.count);
   for (std::size_t i = 0; i < unknowns.count; ++i) unknown_of[unknowns.slot[i]] = i;
   for (std::size_t c = 0; c < channels; ++c) {
@@ -226,6 +228,10 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
     group->push_back(std::move(start));
   }
   is_linear = gonio::is_linear(problem, is_shape);
+  while (is_linear && o.metric != Metric::log && unknowns.linear < unknowns.count &&
+         unknowns.slot[unknowns.linear] < is_shape.size() &&
+         !is_shape[unknowns.slot[unknowns.linear]])
+    ++unknowns.linear;
 }
 
 }  // namespace gonio

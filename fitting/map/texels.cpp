@@ -18,20 +18,18 @@ namespace gonio {
 namespace {
 
 constexpr float nan = std::numeric_limits<float>::quiet_NaN();
-/// Steps of the first round, after which texels that are not there yet wait for a register full of their kind; and of all.
-constexpr int first_steps = 8, most_steps = 150;
-/// Steps from each of several starts, after which the lowest goes on.
-constexpr int steps_of_each = 10;
+/// Steps from each of several starts, after which the lowest goes on; and of all.
+constexpr int steps_of_each = 8, most_steps = 150;
 /// Starts from which a texel descends: the lowest of those that may lie in valleys of their own.
 constexpr std::size_t starts_kept = 2;
 
 constexpr double normal_quantile = 1.959963984540054;  // of 0.975
 
-/// Texel on its way, between two rounds.
+/// Texel on its way, waiting for a register full of its kind.
 struct Waiting {
   std::size_t texel;
-  std::vector<float> x;
-  float damping;
+  std::vector<float> state;  ///< its lane of the register's
+  int steps;
 };
 
 /// The starts at which each lane's cost is lowest, best first.
@@ -76,8 +74,9 @@ class LaneFit {
   std::vector<float> start_of(std::span<const TexelTask::Start> starts);
   void add_middles(std::vector<std::vector<float>>& begins) const;
   void begin_tilted(std::span<const TexelTask::Start>, LowestStarts& begins);
-  bool descend(int steps);
-  void fit(std::span<const std::size_t> texels, std::span<const Waiting> waiting, int steps);
+  void step(int most);
+  void descend(std::size_t count, bool to_the_end);
+  void fit(std::span<const std::size_t> texels);
   void take_lowest(std::vector<float>& lowest);
   void finish(std::span<const std::size_t> texels);
   void judge_singular(std::size_t lane);
@@ -102,6 +101,7 @@ class LaneFit {
   // The register on its way.
   Column<float> values_, memory_, inverse_, own_inverse_, left_out_, variance_, freedom_;
   TexelState state_{};
+  std::array<int, padding> steps_{};  ///< of each lane
   std::vector<Waiting> waiting_;
 };
 
@@ -123,7 +123,7 @@ LaneFit::LaneFit(const TexelTask& task,
     for (const std::size_t k : d.parameters) {
       const auto& q = task.model().parameters[k];
       const bool scalar = q.count == 1 && !task.is_shape[q.first];
-      is_middle_[q.first] = scalar && task.problem.free.mask()[q.first];
+      is_middle_[q.first] = scalar && !task.is_linear && task.problem.free.mask()[q.first];
       has_middles_ = has_middles_ || is_middle_[q.first];
     }
 
@@ -138,7 +138,7 @@ LaneFit::LaneFit(const TexelTask& task,
     next += rows * padding;
     return at;
   };
-  state_ = {take(unknowns), take(unknowns), take(matrix),       take(unknowns), take(1),
+  state_ = {take(unknowns), take(unknowns), take(matrix),       take(unknowns), take(1), take(1),
             take(1),        take(1),        register_.signal(), take(1),        nullptr};
   state_.scratch = next;
   inverse_ = Column<float>(unknowns * unknowns * padding);
@@ -178,11 +178,12 @@ void LaneFit::begin_tilted(std::span<const TexelTask::Start> group, LowestStarts
     begins.add(start_of(shapes), state_.cost);
   };
   look(group);
-  for (const auto tilt : {TexelRegister::Tilt::matt, TexelRegister::Tilt::highlight}) {
-    register_.find_tilt(tilt, std::span(u.low).subspan(first), std::span(u.high).subspan(first),
-                        tilt_.data());
-    look(group);
-  }
+  Column<float> highlight(2 * padding);
+  register_.find_tilts(std::span(u.low).subspan(first), std::span(u.high).subspan(first),
+                       tilt_.data(), highlight.data());
+  look(group);
+  std::copy_n(highlight.data(), 2 * padding, tilt_.data());
+  look(group);
   for (const double steep : {0.2, 0.45})
     for (int k = 0; k < 6; ++k) {
       const double turn = (k + (steep > 0.3 ? 0.5 : 0)) * std::numbers::pi / 3;
@@ -242,60 +243,69 @@ void LaneFit::find_start(std::span<const TexelTask::Start> starts) {
   }
 }
 
-bool LaneFit::descend(int steps) {
-  for (int k = 0; k < steps; ++k) {
+/// Takes that many steps, or fewer where all lanes are there.
+void LaneFit::step(int most) {
+  for (int k = 0; k < most; ++k) {
     put_values(state_.tried);
     passes_.normal(register_.samples(), values_.data());
-    if (!lanes_.descend(task_.unknowns, passes_.unknowns(), passes_.sums(), state_)) return true;
+    for (std::size_t l = 0; l < width_; ++l) steps_[l] += state_.done[l] == 0;
+    if (!lanes_.descend(task_.unknowns, passes_.unknowns(), passes_.sums(), state_)) return;
   }
-  return false;
 }
 
-void LaneFit::fit(std::span<const std::size_t> texels,
-                  std::span<const Waiting> waiting,
-                  int steps) {
+/// Steps until each of the first `count` lanes is there or has taken all steps it may, or until most are: the others wait for more of
+/// their kind.
+void LaneFit::descend(std::size_t count, bool to_the_end) {
+  for (;;) {
+    std::size_t moving = 0;
+    for (std::size_t l = 0; l < count; ++l) {
+      if (state_.done[l] == 0 && steps_[l] >= most_steps) state_.done[l] = 2;
+      moving += state_.done[l] == 0;
+    }
+    if (moving == 0 || (!to_the_end && 2 * moving < width_)) return;
+    step(1);
+  }
+}
+
+/// Begins the fit of a register full, up to where one start is left.
+void LaneFit::fit(std::span<const std::size_t> texels) {
   register_.gather(texels);
   LowestStarts lowest_starts(starts_kept);
   auto& begins = lowest_starts.starts();
-  if (waiting.empty()) {
-    std::fill_n(tilt_.data(), 2 * padding, 0.0F);
-    for (const auto& group : task_.starts)
-      if (task_.asked.refine_normals && in_.normal.empty())
-        begin_tilted(group, lowest_starts);
-      else
-        lowest_starts.add(start_of(group), state_.cost);
-    if (has_middles_) add_middles(begins);
-  }
+  std::fill_n(tilt_.data(), 2 * padding, 0.0F);
+  for (const auto& group : task_.starts)
+    if (task_.asked.refine_normals && in_.normal.empty())
+      begin_tilted(group, lowest_starts);
+    else
+      lowest_starts.add(start_of(group), state_.cost);
+  if (has_middles_) add_middles(begins);
   register_.in_logarithms();
-  std::fill_n(state_.damping, padding, 0.0F);
-  if (!waiting.empty()) {
-    auto& x = begins.emplace_back(n() * padding);
-    for (std::size_t l = 0; l < width_; ++l) {
-      const Waiting& w = waiting[l < waiting.size() ? l : 0];
-      for (std::size_t i = 0; i < n(); ++i) x[i * padding + l] = w.x[i];
-      state_.damping[l] = w.damping;
-    }
-  }
   std::vector<float> lowest;
   for (const auto& x : begins) {
     std::ranges::copy(x, state_.x);
     std::ranges::copy(x, state_.tried);
     std::fill_n(state_.cost, padding, std::numeric_limits<float>::infinity());
-    for (float* const row : {state_.promise, state_.done}) std::fill_n(row, padding, 0.0F);
-    if (begins.size() > 1) std::fill_n(state_.damping, padding, 0.0F);
-    descend(begins.size() > 1 ? steps_of_each : steps);
-    if (begins.size() > 1) take_lowest(lowest);
+    for (float* const row : {state_.gain, state_.damping, state_.promise, state_.done})
+      std::fill_n(row, padding, 0.0F);
+    steps_.fill(0);
+    if (begins.size() == 1) return;
+    step(steps_of_each);
+    take_lowest(lowest);
   }
 }
 
-/// Keeps of each texel the lower of two ends: that of the state and of an earlier one, empty the first time.
+/// Keeps of each texel the one of two ends whose next step leads lower: that of the state and an earlier one, empty the first time.
 void LaneFit::take_lowest(std::vector<float>& lowest) {
   float* const now = memory_.data();
   const auto size = static_cast<std::size_t>(state_.scratch - now),
-             cost = static_cast<std::size_t>(state_.cost - now);
+             cost = static_cast<std::size_t>(state_.cost - now),
+             promise = static_cast<std::size_t>(state_.promise - now);
+  const auto expected = [&](const float* at, std::size_t l) {
+    return at[cost + l] - at[promise + l];
+  };
   if (lowest.empty()) lowest.assign(now, now + size);
   for (std::size_t l = 0; l < padding; ++l) {
-    const bool lower = now[cost + l] < lowest[cost + l];
+    const bool lower = expected(now, l) < expected(lowest.data(), l);
     for (std::size_t at = l; at < size; at += padding)
       (lower ? lowest[at] : now[at]) = lower ? now[at] : lowest[at];
   }
@@ -435,29 +445,42 @@ void LaneFit::fit_all() {
   const auto fill_up = [&](std::size_t from) {  // with what is looked at and forgotten
     for (std::size_t l = from; l < width_; ++l) texels[l] = texels[0];
   };
-  const auto continue_waiting = [&](std::size_t count) {
-    for (std::size_t l = 0; l < count; ++l) texels[l] = waiting_[l].texel;
+  const auto size = static_cast<std::size_t>(state_.scratch - memory_.data());
+  const auto go_on = [&](std::size_t count, bool to_the_end) {
+    descend(count, to_the_end);
+    const std::size_t waited = waiting_.size();
+    for (std::size_t l = 0; l < count; ++l) {
+      if (state_.done[l] != 0) continue;
+      auto& w = waiting_.emplace_back(Waiting{texels[l], {}, steps_[l]});
+      for (std::size_t at = l; at < size; at += padding) w.state.push_back(memory_[at]);
+    }
+    if (waiting_.size() < waited + count) finish({texels.data(), count});
+  };
+  const auto continue_waiting = [&](std::size_t count, bool to_the_end) {
+    const auto end = waiting_.begin() + static_cast<std::ptrdiff_t>(count);
+    std::vector<Waiting> now(std::make_move_iterator(waiting_.begin()),
+                             std::make_move_iterator(end));
+    waiting_.erase(waiting_.begin(), end);
+    for (std::size_t l = 0; l < count; ++l) texels[l] = now[l].texel;
     fill_up(count);
-    fit(texels, {waiting_.data(), count}, most_steps);
-    for (std::size_t l = 0; l < count; ++l)
-      if (state_.done[l] == 0) state_.done[l] = 2;
-    finish({texels.data(), count});
-    waiting_.erase(waiting_.begin(), waiting_.begin() + static_cast<std::ptrdiff_t>(count));
+    register_.gather(texels);
+    register_.in_logarithms();
+    for (std::size_t l = 0; l < width_; ++l) {
+      const Waiting& w = now[l < count ? l : 0];
+      for (std::size_t at = 0; at < w.state.size(); ++at) memory_[at * padding + l] = w.state[at];
+      steps_[l] = w.steps;
+    }
+    go_on(count, to_the_end);
   };
   for (std::size_t first = 0; first < in_.texels; first += width_) {
     const std::size_t count = std::min(width_, in_.texels - first);
     for (std::size_t l = 0; l < count; ++l) texels[l] = first + l;
     fill_up(count);
-    fit(texels, {}, first_steps);
-    for (std::size_t l = 0; l < count; ++l) {
-      if (state_.done[l] != 0) continue;
-      auto& w = waiting_.emplace_back(Waiting{first + l, {}, state_.damping[l]});
-      for (std::size_t i = 0; i < n(); ++i) w.x.push_back(state_.x[i * padding + l]);
-    }
-    finish({texels.data(), count});
-    while (waiting_.size() >= width_) continue_waiting(width_);
+    fit(texels);
+    go_on(count, false);
+    while (waiting_.size() >= width_) continue_waiting(width_, false);
   }
-  if (!waiting_.empty()) continue_waiting(waiting_.size());
+  if (!waiting_.empty()) continue_waiting(waiting_.size(), true);
 }
 
 void check_sizes(const TexelSamples& s) {

@@ -10,6 +10,7 @@
 
 #include "brdf/kernel/lane.h"
 #include "brdf/kernel/residual.h"
+#include "brdf/kernel/tilt.h"
 #include "brdf/term/product.h"
 #include "brdf/term/term_list.h"
 #include "number/dual.h"
@@ -144,7 +145,7 @@ constexpr std::array<std::size_t, N> in_order() {
 
 template <class Term, class T, class Way, std::size_t N, class F>
 Term variables(const F* p, const std::array<std::size_t, N>& at) {
-  return bind<Term, T, Way>(p, [&](const plain_t<T>& x, std::size_t k) {
+  return bind<Term, T, Way>(p, [&](const Lane<F>& x, std::size_t k) {
     if constexpr (T::count == 0)
       return T(x);
     else
@@ -180,9 +181,11 @@ struct LobeSlopes<TermList<D, V, Fr>, F, Way, moves> {
   static constexpr auto of_v = places_of_v<D<B>, V<B>>();
   static constexpr bool turns = LobeShape<D, V, B>::anisotropic;
   static constexpr std::size_t of_d = D<B>::parameters.size(),
+                               of_frame = moves ? (tilts<Way> ? 2 : turns) : 0,
                                of_shape =
-                                   moves ? std::max(of_d, std::ranges::max(of_v) + 1) + turns : 0;
-  using S = Dual<B, of_shape>;
+                                   moves ? std::max(of_d, std::ranges::max(of_v) + 1) + of_frame
+                                         : 0;
+  using S = Dual<B, of_shape, moves && tilts<Way>>;
   using Fresnel = TermSlopes<Fr, F, Way>;
 
   static auto shape(const F* d, const F* v) {
@@ -193,7 +196,7 @@ struct LobeSlopes<TermList<D, V, Fr>, F, Way, moves> {
     for (std::size_t k = 0; moves && k < of_d; ++k) columns[at++] = {term, k};
     for (std::size_t k = 0; moves && k < of_v.size(); ++k)
       if (of_v[k] >= of_d) columns[at++] = {term + 1, k};
-    if (moves && turns) columns[at++] = {term, of_d};
+    for (std::size_t k = 0; k < of_frame; ++k) columns[at++] = {term, of_d + k};
     for (std::size_t k = 0; k < Fresnel::count; ++k) columns[at++] = {term + 2, k};
   }
 };
@@ -238,11 +241,12 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
                                      LobeSlopes<Lobes, F, Way, moves>::Fresnel::count)) +
                                    (0 + ... + TermSlopes<Diffuse, F, Way>::count);
   static_assert(K <= max_columns);
-  static_assert((0 + ... + LobeSlopes<Lobes, F, Way, moves>::turns) <= 1,
-                "one column by the turn of the frame");
+  static_assert((0 + ... + (LobeSlopes<Lobes, F, Way, moves>::of_frame > 0)) <= 1,
+                "one column by the turn of the frame, two by its tilt");
+  static_assert(!tilts<Way> || (is_uniform<Diffuse<F>> && ...), "tilts move D V only");
 
   /// Parameters by which the columns after the residual's are derivatives: of each lobe those of D, those of
-  /// V that D has not, the turn of its frame, and of F; then those of the diffuse terms.
+  /// V that D has not, the turn or tilt of its frame, and of F; then those of the diffuse terms.
   static constexpr auto columns() {
     std::array<FusedColumn, max_columns - 1> all{};
     std::size_t at = 0, term = n_diffuse;
@@ -256,18 +260,40 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
     return all;
   }
 
-  using Rows = std::array<std::array<F, block>, rows_before(n_lobes)>;
+  /// Those, and where normals tilt the cosine over that of the normal given and its derivatives.
+  static constexpr std::size_t of_ratio = tilts<Way> ? 1 + 2 * moves : 0;
+  using Rows = std::array<std::array<F, block>, rows_before(n_lobes) + of_ratio>;
 
-  /// D V of each lobe and its derivatives, which the channels share.
-  static void fill(const Block<F>& x, const NormalArguments<F>& a, Rows& rows) {
+  /// D V of each lobe and its derivatives, which the channels share, times that ratio.  Flat: left to itself, GCC calls
+  /// a function for each sample.
+  template <class Arguments>
+  [[gnu::flatten]] static void fill(const Block<F>& x,
+                                    std::size_t at,
+                                    const Arguments& a,
+                                    Rows& rows) {
     each<n_lobes>([&]<std::size_t l>() {
       const auto* const p = a.parameters.data() + n_diffuse + 3 * l;
       const auto shape = LobeAt<l>::shape(p[0][0], p[1][0]);
       auto* const row = rows.data() + rows_before(l);
       for (std::size_t i = 0; i < x.n; i += lanes<B>) {
-        const auto angles = angles_with<LobeAt<l>::turns, Way>(x, i);
+        const auto angles = angles_with < LobeAt<l>::turns || tilts<Way>, Way > (x, i);
         typename LobeAt<l>::S dv;
-        if constexpr (moves && LobeAt<l>::turns)
+        if constexpr (tilts<Way>) {
+          const B per_given = load<B>(a.per_cosine + at + i);
+          auto* const ratio_row = rows.data() + rows_before(n_lobes);
+          typename LobeAt<l>::S ratio;
+          if constexpr (moves) {
+            const auto tilted = tilting<LobeAt<l>::of_shape>(angles);
+            ratio = tilted.nol * per_given;
+            dv = shape(tilted).value() * ratio;
+            for (std::size_t k = 0; k < 2; ++k)
+              store<B>(ratio_row[1 + k].data() + i, ratio.d[LobeAt<l>::of_shape - 2 + k]);
+          } else {
+            ratio = angles.nol * per_given;
+            dv = shape(angles).value() * ratio;
+          }
+          store<B>(ratio_row[0].data() + i, ratio.v);
+        } else if constexpr (moves && LobeAt<l>::turns)
           dv = shape(turning<LobeAt<l>::of_shape>(angles)).value();
         else
           dv = shape(angles).value();
@@ -276,6 +302,15 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
           store<B>(row[1 + k].data() + i, dv.d[k]);
       }
     });
+  }
+
+  /// Row k of the ratio, where there is any.
+  template <std::size_t k>
+  static auto ratio_at(const Rows& rows, std::size_t i) {
+    if constexpr (tilts<Way>)
+      return load<B>(rows[rows_before(n_lobes) + k].data() + i);
+    else
+      return One{};
   }
 
   /// Diffuse light as an input of the rule, where there is any.
@@ -291,6 +326,14 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
       return One{};
   }
 
+  /// Derivative of f by a factor of all diffuse terms.
+  static auto by_ratio(const auto& first, const auto&... values) {
+    return [&]<std::size_t... U>(std::index_sequence<U...>) {
+      return (Zero{} + ... + (by_diffuse<U>(first) * values));
+    }
+    (std::make_index_sequence<n_diffuse>{});
+  }
+
   /// \tparam Sums  what becomes of a sample's residual and its derivatives
   template <Link kind, template <class, std::size_t> class Sums = NormalSums, class Arguments>
   static void pass(const Arguments& a) {
@@ -298,7 +341,7 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
       alignas(64) Rows rows;
       for (std::size_t at = 0; at < a.x.n; at += block) {
         const auto x = Way::part(a.x, at, std::min(block, a.x.n - at));
-        fill(x, a, rows);
+        fill(x, at, a, rows);
         for (std::size_t c = 0; c < a.channels; ++c) {
           const std::tuple terms{TermSlopes<Diffuse, F, Way>(a.parameters[U][c])...};
           const std::tuple fresnels{
@@ -310,7 +353,8 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
           B cost = load<B>(a.cost);
           for (std::size_t i = 0; i < x.n; i += lanes<B>) {
             const auto angles = angles_with<Value::anisotropic, Way>(x, i);
-            const std::tuple diffuse{std::get<U>(terms)(angles)...};
+            const auto ratio = ratio_at<0>(rows, i);
+            const std::tuple diffuse{std::get<U>(terms)(angles) * ratio...};
             const std::tuple fresnel{std::get<L>(fresnels)(angles)...};
             std::array<B, n_lobes> by_shape, by_fresnel;
             const auto add = [&]<std::size_t l>(const auto& base, const auto& under) {
@@ -333,14 +377,20 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
             const auto compared =
                 weighted<B>(value, slope, load<B>(target + i), Way::of_sample(weight, i));
             const B &r = compared[0], &w = compared[1];  // names that lambdas may capture
+            [[maybe_unused]] const auto matt = by_ratio(first, std::get<U>(terms)(angles).v...);
             std::array<B, K>
                 column;  // made after the link: what lives across a logarithm is spilled
             column[0] = r;
             std::size_t k = 1;
             each<n_lobes>([&]<std::size_t l>() {
-              for (std::size_t s = 0; s < LobeAt<l>::of_shape; ++s)
-                column[k++] =
-                    unmasked<B>(w, load<B>(rows[rows_before(l) + 1 + s].data() + i) * by_shape[l]);
+              each<LobeAt<l>::of_shape>([&]<std::size_t s>() {
+                const B by = load<B>(rows[rows_before(l) + 1 + s].data() + i) * by_shape[l];
+                constexpr std::size_t fixed = LobeAt<l>::of_shape - LobeAt<l>::of_frame;
+                if constexpr (tilts<Way> && s >= fixed)
+                  column[k++] = unmasked<B>(w, by + matt * ratio_at<1 + s - fixed>(rows, i));
+                else
+                  column[k++] = unmasked<B>(w, by);
+              });
               for (const B& slope_of_f : std::get<l>(fresnel).d)
                 column[k++] = unmasked<B>(w, by_fresnel[l] * slope_of_f);
             });

@@ -130,8 +130,8 @@ DualColumn<F> ModelDerivatives<F>::term(const TermUse& t, std::size_t c) {
       r.d.emplace_back(slot, by_turn);
   }
   if (texels_ && texels_->cosine)
-    for (std::size_t k = 0; k < 2; ++k)
-      r.d.emplace_back(model_.value_count + k, d[t.parameters.size() + k] = fresh());
+    for (std::size_t k = 0; k < texels_->cosine->d.size(); ++k)
+      r.d.emplace_back(texels_->cosine->d[k].first, d[t.parameters.size() + k] = fresh());
   const std::size_t own = term_of_channel(t.term, c);
   const auto kernel = texels_ ? texels_->derivatives[own] : k_.terms[own].derivatives;
   into_->push_back(
