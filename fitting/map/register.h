@@ -60,7 +60,7 @@ class TexelRegister {
   void make_angles();
   Direction axis(std::size_t k, std::size_t lane) const;
   Direction of_image(const Column<float>& directions, std::size_t image, std::size_t lane) const;
-  /// Of each image with any, its direction of light or half vector and the light sent, the mean of channels.
+  /// Light that an image has of a lane, the mean of its channels that are compared, with its directions.
   struct Sent {
     Direction light, half;
     double y;

@@ -353,7 +353,7 @@ struct FusedNormal<F, ModelTerms<TermList<Diffuse...>, Lobes...>, Way, moves> {
           B cost = load<B>(a.cost);
           for (std::size_t i = 0; i < x.n; i += lanes<B>) {
             const auto angles = angles_with<Value::anisotropic, Way>(x, i);
-            const auto ratio = ratio_at<0>(rows, i);
+            [[maybe_unused]] const auto ratio = ratio_at<0>(rows, i);
             const std::tuple diffuse{std::get<U>(terms)(angles) * ratio...};
             const std::tuple fresnel{std::get<L>(fresnels)(angles)...};
             std::array<B, n_lobes> by_shape, by_fresnel;

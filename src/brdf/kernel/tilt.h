@@ -1,6 +1,6 @@
 #pragma once
 /// \file
-/// Normals that tilt, where texels are lanes.  Included by files compiled per instruction set alone.
+/// Normals that tilt, where texels are lanes.  Included only by files compiled per instruction set.
 
 #include "brdf/kernel/lane.h"
 
