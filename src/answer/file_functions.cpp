@@ -77,6 +77,9 @@ Json json_of(const FileFunction& of) {
   return j;
 }
 
+/// For reading all functions of a file, a few seconds.
+constexpr std::size_t most_steps = 8'000'000;
+
 /// Reading that a person asks for of a file's functions, and which words of it were used.
 struct Said {
   const foreign::Reading& all;
@@ -136,9 +139,15 @@ FileFunctions file_functions(const std::string& token) {
                   [&](const auto& e) { return e.function != name.function || e.is_shadowed; });
   if (entries.empty()) foreign::read_function(name);  // says what is wrong
   Said said{name.reading};
+  const std::size_t before = foreign::steps_of(name.file);
   for (auto& e : entries) {
     FileFunction f{std::move(e), {}, {}};
-    if (f.entry.is_shadowed) {
+    if (name.function.empty() && foreign::steps_of(name.file) - before > most_steps)
+      f.entry.refused = bad_input(name.file, fmt::format("line {}", f.entry.line),
+                                  fmt::format("functions of more than {} steps before", most_steps),
+                                  fmt::format("it to be named: {}:{}", name.file, f.entry.function))
+                            .what();
+    if (!f.entry.refused.empty()) {
       all.functions.push_back(std::move(f));
       continue;
     }

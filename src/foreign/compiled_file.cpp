@@ -103,6 +103,10 @@ std::string sha256_of(const std::string& file) {
   return file_of(file)->source.sha256;
 }
 
+std::size_t steps_of(const std::string& file) {
+  return file_of(file)->module->steps;
+}
+
 void provide(const std::string& file, const std::string& content) {
   auto made = compiled(source_of(file, content));
   const std::lock_guard lock(files_mutex);

@@ -389,11 +389,6 @@ std::vector<Entry> list_functions(const std::string& file) {
     Entry e{name, c->module->functions().at(id).line};
     for (const auto& [argument, type] : c->module->functions().at(id).parameters)
       e.arguments.emplace_back(c->module->name(argument));
-    try {
-      read_function({file, name});
-    } catch (const Error& error) {
-      e.refused = error.what();
-    }
     all.push_back(std::move(e));
   }
   for (const auto& [name, id] : c->shadowed) {

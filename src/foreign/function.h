@@ -84,21 +84,23 @@ bool takes_light(const Function&);
 /// True of one whose arguments name any direction but those of the frame.
 bool takes_direction(const Function&);
 
-/// What a file has: functions, and those that cannot be run with the reason.
+/// A function that a file has.
 struct Entry {
   std::string function;
   int line = 0;
-  std::string refused{};
+  std::string refused{};                 ///< why it cannot be run, where that is known
   std::vector<std::string> arguments{};  ///< their names
   bool is_shadowed = false;              ///< its name means another function
 };
 
 /// Files are compiled once in a run.  \throws Error  bad input with the line; wrong usage of a parameter without bounds
 Function read_function(const Name&, std::optional<Stands> as = {});
-/// Every function of a file that gives a number or a colour, those with refusals included.
+/// Every function of a file that gives a number or a colour, unread.
 std::vector<Entry> list_functions(const std::string& file);
 /// SHA-256 of a file's bytes as they were compiled.
 std::string sha256_of(const std::string& file);
+/// Steps that reading a file's functions took so far in this run.
+std::size_t steps_of(const std::string& file);
 /// Gives a text as the content of a file of that name, for programs that have no file.
 void provide(const std::string& file, const std::string& content);
 

@@ -2,6 +2,7 @@
 /// \file
 /// A SPIR-V module that the validator has passed, taken apart: types, names, constants, functions and their blocks.
 
+#include <atomic>
 #include <cstddef>
 #include <cstdint>
 #include <map>
@@ -71,6 +72,8 @@ class SpirvModule {
   bool is_of_numbers(Id type) const;
   /// The scalar type that vectors, matrices and arrays consist of.
   const SpirvType& leaf(Id type) const;
+
+  mutable std::atomic<std::size_t> steps = 0;  ///< that translating its functions took so far
 
  private:
   void declare(const Instruction&, SpirvFunction*& f);

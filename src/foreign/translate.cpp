@@ -56,6 +56,9 @@ const std::map<std::string, Op>& declared_functions() {
 class Translator {
  public:
   Translator(const SpirvModule& module, const Binding& binding) : m(module), bind_(binding) {}
+  Translator(const Translator&) = delete;
+  Translator& operator=(const Translator&) = delete;
+  ~Translator() { m.steps += steps_ + p.nodes.size(); }
 
   Translation run(Id function) {
     // Those that it needs, in the order of the text: a file may have as many as functions.

@@ -183,6 +183,25 @@ TEST(OwnModelCommands, AnAuditThatReadNoFunctionEndsAsBadInput) {
   EXPECT_EQ(gonio(f, "audit one.glsl").code, 0);
 }
 
+TEST(OwnModelCommands, ListsLongFunctionsUpToALimitOfAllAndTheOthersByName) {
+  SKIP_WITHOUT_SHADERS;
+  const Folder f;
+  std::string text =
+      "// a 0 1 0.3\nfloat g(float x, float a) { float s = a; for (int j = 0; j < 90; ++j) s += x "
+      "* "
+      "s; return s; }\n";
+  for (int k = 0; k < 60; ++k)
+    text += "float f" + std::to_string(k) +
+            "(float NoH, float a) { float s = a; for (int i = 0; i < 400; ++i) s += g(NoH * "
+            "float(i), a); return s; }\n";
+  f.write("many.glsl", text);
+  const auto all = gonio(f, "models many.glsl --json").json()["functions"];
+  ASSERT_EQ(all.size(), 61U);
+  EXPECT_FALSE(all[1].contains("refused")) << all[1];
+  EXPECT_NE(all[60]["refused"].get<std::string>().find("8000000 steps"), std::string::npos);
+  EXPECT_EQ(gonio(f, "models many.glsl:f59").code, 0);
+}
+
 json scene() {
   return json::parse(R"({
     "schema": "gonio.scene/1",
