@@ -243,13 +243,20 @@ bool descend(const TexelUnknowns& u,
       h.put(entry(i, j), select<B>(takes, new_h[entry(i, j)], h[entry(i, j)]));
   }
   cost.put(0, select<B>(takes, now, old));
-  // Damping falls where a step keeps what it promised.
-  const B before = damping[0], least = constant<B>(1e-3L);
+  // Damping falls where a step keeps what it promised, from 1e-3 to none at once.  Where an
+  // undamped step failed a second time the floor is a curved valley, which ends such jumps short of
+  // its lowest point: from then on damping falls from 1e-4 by tenths.
+  const B before = damping[0];
   const B kept = old - now;
   gain.put(0, select<B>(takes, new_gain, gained));
   const auto good = takes && !begins && !(kept < promised / 2);
-  const B less = select<B>(before < least, zero, before / 10);
-  const B more = max<B>(before * 10, constant<B>(1e-2L));
+  const B none_again = constant<B>(1e-12L);
+  const auto undamped = before < constant<B>(1e-8L);
+  const auto falls_to_none = before < constant<B>(1.5e-6L) ||
+                             (constant<B>(5e-4L) < before && before < constant<B>(1.5e-3L));
+  const B less = select<B>(zero < before, select<B>(falls_to_none, none_again, before / 10), zero);
+  const B again = select<B>(zero < before, constant<B>(1e-4L), constant<B>(1e-2L));
+  const B more = select<B>(undamped, again, before * 10);
   const B next = select<B>(takes, select<B>(good || hidden, less, before), more);
   damping.put(0, select<B>(moving, select<B>(begins, before, next), before));
 
@@ -265,7 +272,7 @@ bool descend(const TexelUnknowns& u,
     cut = max<B>(cut, as_number(!(abs(steps[i]) < B(u.furthest[i]))));
   // Where steps shorten fast, the next one leaves of its promise what it is of the last; else that
   // is not all that is left.
-  const auto fast = all < promised / 16 && !(zero < before);
+  const auto fast = all < promised / 16 && undamped;
   const B after = select<B>(fast, all * (all / promised), all);
   const auto enough = !(constant<B>(1e-13L) * best + rounding < after);
   const auto again_hidden = hidden && !begins && !(all < (promised + gained) * constant<B>(0.95L));

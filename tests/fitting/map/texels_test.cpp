@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <cstdlib>
 #include <limits>
+#include <map>
 #include <memory>
 #include <random>
 
@@ -177,6 +178,41 @@ TEST(Texels, ComeBackWithoutNoise) {
     const TexelFit f = fit_texels(s.samples(), options(model));
     for (const auto outcome : f.outcome) EXPECT_EQ(outcome, converged) << model;
     expect_truth(s, f, 1e-3);
+  }
+}
+
+TEST(Texels, OfADullSurfaceUnderOneCameraFollowTheValleyToItsLowestPoint) {
+  const std::string model = "lambert+ggx/smith_ggx.correlated/schlick";
+  Stack s;
+  s.model = bind_model(model, {}, 3);
+  s.texels = 1;
+  std::vector<FrameAngles<double>> angles;
+  for (const double theta : {12., 24., 36., 48., 58., 68.})
+    for (int k = 0; k < 4; ++k) {
+      const Direction l = direction(theta * degree, (90 * k + theta) * degree);
+      for (const double x : {l.x, l.y, l.z}) s.light.push_back(static_cast<float>(x));
+      for (const float x : {0.F, 0.F, 1.F}) s.view.push_back(x);
+      ++s.images;
+    }
+  for (std::size_t i = 0; i < s.images; ++i) angles.push_back(frame_angles(s.directions(i)));
+  const std::map<std::string, std::vector<double>> truth{
+      {"alpha", {0.55}}, {"f0", {0.09}}, {"kd", {0.08, 0.16, 0.38}}};
+  for (const auto& q : s.model.model.parameters)
+    for (std::size_t c = 0; c < q.count; ++c) {
+      s.model.values[q.first + c] =
+          truth.at(std::string(q.about->name))[c % truth.at(std::string(q.about->name)).size()];
+      s.truth.push_back({s.model.values[q.first + c]});
+    }
+  for (const auto& channel : evaluate(s.model, angles))
+    for (const double f : channel) s.values.push_back(static_cast<float>(f));
+  std::vector<float> by_image;  // [image][channel]
+  for (std::size_t i = 0; i < s.images; ++i)
+    for (std::size_t c = 0; c < 3; ++c) by_image.push_back(s.values[c * s.images + i]);
+  s.values = by_image;
+  for (const auto metric : {Metric::log, Metric::l2_cosine}) {
+    const TexelFit f = fit_texels(s.samples(), options(model, metric));
+    EXPECT_EQ(f.outcome[0], converged);
+    expect_truth(s, f, 2e-3);
   }
 }
 
