@@ -453,7 +453,9 @@ LackOfFit lack_of_all(
                                      !enough_angles(number_of_angles(left, axis.of));
                             }) &&
         tests.of_scales > worth_telling * worth_telling;
-    if (!m.tested || first.limited || few_angles) {
+    const bool maybe = first.p_beside_noise < significant && first.beside_noise > beside_noise &&
+                       first.left > worth_telling * worth_telling;
+    if (!m.tested || first.limited || few_angles || maybe) {
       m.tested = false;
       m.too_few = true;
       m.note = few_angles || (!first.tested && tests.all[0].clustered)

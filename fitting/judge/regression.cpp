@@ -316,7 +316,7 @@ void compare_with_noise(const Left& left, const std::vector<double>& r, Regressi
     squares += off * off;
     noise += v.noise * v.noise + rounded * rounded;
   }
-  constexpr std::size_t few = 20;
+  constexpr std::size_t few = 12;
   if (residuals.size() < few) return;
   // Each difference is of nine values, and those of neighbours say half the same.
   const double n = static_cast<double>(residuals.size()), freedom = n * out.freedom / left.samples;

@@ -14,6 +14,7 @@ constexpr std::size_t few_sharers = 8;
 constexpr std::size_t times_as_often =
     4;  ///< times as often as any other value: rounding makes them all frequent
 constexpr std::size_t rarely = 500;  ///< of so many values
+constexpr std::size_t often = 20;    ///< one of so many
 constexpr double most_of_all = 0.6;  ///< of the values
 constexpr double least_step = 0.15;  ///< ln of a factor between a fill and what is beside it
 constexpr double beyond_steps = 2;   ///< times the steps in which values near it are written
@@ -63,17 +64,27 @@ std::optional<Frequent> most_frequent(const Table& t, const SampleAngles& at, st
   return first;
 }
 
-/// Median ln of the factor between a value and those that stand beside it in the table.
-double step_beside(const Table& t, const SampleAngles& at, std::size_t c, double value) {
+/// What stands beside a value in the table.
+struct Beside {
+  double step;    ///< median ln of the factor between it and others
+  double others;  ///< part of its neighbours that are others
+};
+Beside beside(const Table& t, const SampleAngles& at, std::size_t c, double value) {
   const Values& plane = t.values[c];
   std::vector<double> steps;
+  double same = 0;
   for (std::size_t i = 1; i < t.size(); ++i) {
-    if ((plane[i] == value) == (plane[i - 1] == value)) continue;
+    if ((plane[i] == value) == (plane[i - 1] == value)) {
+      if (plane[i] == value) same += 2;
+      continue;
+    }
     const std::size_t other = plane[i] == value ? i - 1 : i;
     if (plane[other] > 0 && mask(at(other), plane[other]) == Mask::valid)
       steps.push_back(std::abs(std::log(plane[other] / value)));
   }
-  return steps.empty() ? 0 : median(steps);
+  if (steps.empty()) return {0, 0};
+  const auto others = static_cast<double>(steps.size());
+  return {median(steps), others / (others + same)};
 }
 
 }  // namespace
@@ -86,7 +97,10 @@ std::optional<Fill> fill_of(const Table& t) {
     const auto f = most_frequent(t, at, c);
     if (!f || (found && f->value != found->value)) continue;
     const double steps = std::log1p(beyond_steps * f->step / f->value);
-    if (step_beside(t, at, c, f->value) < std::max(least_step, steps)) continue;
+    const auto [step, others] = beside(t, at, c, f->value);
+    // One that is as large as its neighbours is no base: that has no other values in between.
+    const bool is_among_others = often * f->times >= f->values && others > 0.5;
+    if (step < std::max(is_among_others ? 0 : least_step, steps)) continue;
     if (!found) found = {f->value, 0, 0, {}};
     found->sharers += f->times;
     found->values += f->values;

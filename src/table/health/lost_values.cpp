@@ -169,13 +169,20 @@ double noise_beside(TableFacts& facts, std::size_t channel, double least, bool k
   }
   if (beside.empty()) return 0;
   const double typical = median(beside);
-  const auto between = std::ranges::count_if(above, [&](double f) { return 2 * f < typical; });
-  if (!known && (few * static_cast<std::size_t>(between) < lost ||
+  for (double& f : beside) f = std::abs(f - typical);
+  const double noise = of_half * median(beside);
+  const auto below = [&](double most) {
+    return static_cast<std::size_t>(
+        std::ranges::count_if(above, [&](double f) { return f < most; }));
+  };
+  // Noise that was cut at 0 comes down to it: some of it is a tenth as large. Above a mark is none.
+  constexpr std::size_t many = 30, next = 50;
+  const bool is_far_below = lost >= many && next * below(noise / 10) < lost;
+  if (!known && (is_far_below || few * below(typical / 2) < lost ||
                  are_exact_up_to(facts, channel, of_half * typical)
                      .value_or(!apart.empty() && median(apart) < smooth)))
     return 0;
-  for (double& f : beside) f = std::abs(f - typical);
-  return of_half * median(beside);
+  return noise;
 }
 
 /// The least value of channels, where several share it and noise is far larger.

@@ -473,6 +473,36 @@ Table measured_in_plane(int angles, const std::function<double(double, double)>&
   return t;
 }
 
+TEST(LackOfFit, OfHalfAProfileOfOneAngleIsToldOrNotKnown) {
+  DirectionList l;
+  for (int k = 0; k < 24; ++k) {
+    l.theta_i_deg.push_back(45);
+    l.phi_i_deg.push_back(0);
+    l.theta_o_deg.push_back(45 + 40.0 * k / 23);
+    l.phi_o_deg.push_back(180);
+  }
+  const auto fitted = [&](const BoundModel& m, unsigned seed) {
+    Table t = test::list_of({});
+    t.where = l;
+    test::put_values(t, m);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (double& v : t.values[0]) v *= std::exp(0.01 * normal(random));
+    return fit_of(t).misfit;
+  };
+  const std::string both = std::string(paint) + "+ggx/smith_ggx.correlated/schlick";
+  const auto two = test::bind(both.c_str(), "alpha=0.08,alpha_2=0.5,f0=0.04,f0_2=0.06,kd=0.05", 1);
+  const auto one = test::bind(paint, "alpha=0.2,f0=0.04,kd=0.05", 1);
+  int accused = 0, unknown = 0;
+  for (unsigned seed = 1; seed <= 20; ++seed) {
+    const auto wrong = fitted(two, seed), right = fitted(one, seed);
+    EXPECT_TRUE(wrong.told || wrong.too_few) << seed;
+    accused += right.told, unknown += right.too_few;
+  }
+  EXPECT_LE(accused, 0);
+  EXPECT_LE(unknown, 2);
+}
+
 TEST(LackOfFit, OfAParameterAtItsBoundIsTold) {
   for (const double value : {0.6123456789, 0.6})
     for (const int angles : {4, 14}) {

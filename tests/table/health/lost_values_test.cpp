@@ -69,6 +69,17 @@ TEST(ValueWarnings, TakeZerosBetweenSmoothValuesForMarks) {
   EXPECT_EQ(lost_below(facts), std::vector<double>{0});
 }
 
+TEST(ValueWarnings, TakeAValueFarBelowAllOthersForAMarkThoughTheOthersFallByMuch) {
+  std::mt19937_64 random(1);
+  std::normal_distribution<double> normal;
+  std::uniform_real_distribution<double> uniform;
+  const auto all = said_of(painted(180, 0.002, 0.35), [&](const auto&, double f) {
+    return uniform(random) < 0.3 ? 1e-9 : f * std::exp(0.01 * normal(random));
+  });
+  EXPECT_TRUE(says(all, "a mark for missing data?"));
+  EXPECT_FALSE(says(all, "clipped noise?"));
+}
+
 TEST(ValueWarnings, KnowWhichChannelNoiseTookValuesFrom) {
   for (const bool clipped : {false, true}) {
     Table t = painted(180, 0.005, 0.15);
