@@ -80,8 +80,8 @@ class Sayings {
                  : std::string("no more");
     };
     said_.headline = fmt::format(
-        "Exact Smith in place of Schlick's k costs {} in cache; a whole GGX model "
-        "costs {} in {}.",
+        "Exact Smith in place of Schlick's k costs {} in cache. A whole GGX model "
+        "with it costs {}, if it reads {}.",
         text(*cache), text(*streaming), long_columns(r_.options));
   }
   const CostSwitch* between(std::string_view from,

@@ -207,10 +207,11 @@ void lost_energy(Findings& to, const CrossFitRows& r) {
   }
   const auto all = cases_of(r, {all_orders, "exact"});
   if (!all.empty())
-    to.say(fmt::format(
-        "These fits leave a log-RMS residual of {:.2g}, of which {:.1g} is noise of the random "
-        "walks that made the truth.",
-        rms_residual(all), rms_noise(all)));
+    to.say(
+        fmt::format("These fits leave a log-RMS residual of {:.2g} over all of them, of which "
+                    "{:.1g} is noise of "
+                    "the random walks that made the truth.",
+                    rms_residual(all), rms_noise(all)));
 }
 
 /// Effect of a further free parameter on the lost energy.

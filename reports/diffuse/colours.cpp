@@ -36,7 +36,7 @@ constexpr std::array lights{Light{"front light", 0}, Light{"side light", 60},
                             Light{"rim light", 120}};
 constexpr const char* even_light = "even light";
 
-/// Points of a ball, seen from afar, that one light reaches.
+/// Points of a ball, seen from afar, that one light reaches, but for the rim, whose error grows with the cosine's inverse.
 std::vector<Angles<double>> lit_points(double from_viewer_deg, std::size_t pixels) {
   std::vector<Angles<double>> out;
   const double t = from_viewer_deg * degree;
@@ -49,7 +49,7 @@ std::vector<Angles<double>> lit_points(double from_viewer_deg, std::size_t pixel
       const double x = at(i), y = at(j), z2 = 1 - x * x - y * y;
       if (z2 <= 0) continue;
       const double nov = std::sqrt(z2), nol = x * light.x + nov * light.z;
-      if (nol <= 0) continue;
+      if (nov < least_colour_cosine || nol < least_colour_cosine) continue;
       const double voh = std::cos(t / 2), noh = (nol + nov) / (2 * voh);
       // |n × h|² from both vectors, as it cancels near the peak
       const Direction h{light.x / (2 * voh), 0, (light.z + 1) / (2 * voh)};

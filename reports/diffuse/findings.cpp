@@ -55,7 +55,7 @@ void looks(Findings& to, const DiffuseRows& r) {
     const auto there = largest_difference(r.colours, lambert, "matte", least);
     to.say(fmt::format(
         "On matte surfaces Lambert differs from EON by up to ΔE2000 {}{}.", delta(*most),
-        there ? fmt::format(", at roughness {:g} already by {}", least, delta(*there))
+        there ? fmt::format(", at roughness {:g} already by up to {}", least, delta(*there))
               : std::string()));
   }
   const auto free = largest_difference(r.colours, lambert, "plastic"),

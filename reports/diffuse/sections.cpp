@@ -100,20 +100,25 @@ page::Page report_page(const DiffuseReport& r) {
            r.findings.sentences};
   out.full = r.full;
   out.first = opening(r.pictures, "average");
-  out.sections = {summary(r.rows),
-                  albedos(r.pictures),
-                  looks(r.rows, r.pictures),
-                  {"How it is measured",
-                   "",
-                   {Points{{"Roughness is what a renderer's slider sets: α = r² for Disney's, "
-                            "Frostbite's and Hammon's form, σ = r radians for Oren–Nayar as in "
-                            "MaterialX, r itself for Fujii's and EON.",
-                            "Albedos are integrals, exact to 10⁻⁶. Times are of column kernels, in "
-                            "float and in cache, on one thread. A form is written here. In the "
-                            "report on costs it is added to a lobe, which takes longer.",
-                            "Coupled forms reflect what the interface of a lobe leaves. Hammon's, "
-                            "Disney's and Frostbite's contain an interface. None of them is a "
-                            "matte surface: they are compared on plastic only."}}}}};
+  out.sections = {
+      summary(r.rows),
+      albedos(r.pictures),
+      looks(r.rows, r.pictures),
+      {"How it is measured",
+       "",
+       {Points{{"Roughness is what a renderer's slider sets: α = r² for Disney's, "
+                "Frostbite's and Hammon's form, σ = r radians for Oren–Nayar as in "
+                "MaterialX, r itself for Fujii's and EON.",
+                "Albedos are integrals, exact to 10⁻⁶. Times are of column kernels, in "
+                "float and in cache, on one thread. Here a form is timed "
+                "by itself, in the report on costs as part of a lobe's model.",
+                fmt::format("Colours are compared on a ball, where the cosines of light "
+                            "and view are {:g} or more. Sentences round up, tables to "
+                            "the nearest.",
+                            least_colour_cosine),
+                "Coupled forms reflect what the interface of a lobe leaves. Hammon's, "
+                "Disney's and Frostbite's contain an interface. None of them is a "
+                "matte surface: they are compared on plastic only."}}}}};
   out.most_shipped = {"Lambert", "Lambert, coupled", "Disney", "Frostbite", "Oren–Nayar", "EON"};
   return out;
 }

@@ -352,9 +352,7 @@ void solid_angle_of_half(Findings& to, const EnergyRows& r) {
            fmt::format("equal to {:.0f} digits", -std::log10(std::max(off, 1e-15))),
            fmt::format("for {} pairs of directions, by small differences, the solid angle of the "
                        "half vector agrees{}.",
-                       pairs,
-                       off < 1e-6 ? " to one part in a million"
-                                  : fmt::format(" to a share of {:.6f}", off)));
+                       pairs, off < 1e-6 ? "" : fmt::format(" to a share of {:.6f}", off)));
 }
 
 }  // namespace

@@ -81,7 +81,7 @@ std::string cost_text(const Candidate& taken, const Candidate& cheap) {
 }
 /// What to take instead where time is what lacks, what that saves and what it leaves.
 std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::string_view left) {
-  return fmt::format("time is short: then {} saves {}, {}", name_of_form(cheaper.form),
+  return fmt::format("time is short: then {}, {} faster, {}", name_of_form(cheaper.form),
                      ns_text(more(cheaper, taken).ns), left);
 }
 /// Aside on the cost, where both stand in a whole model, composed of its terms: that it vanishes where memory is the limit.
@@ -91,7 +91,7 @@ std::string streaming_aside(const Facts& f, std::string_view taken, std::string_
   constexpr double seen = 0.1;  // of the model's time, that a spread must not hide
   if (const auto d = more(*b, *a); (d.survives && d.ns > 0) || d.spread_ns > seen * b->ns)
     return {};
-  return " (in a whole model whose inputs come from memory no difference was measured)";
+  return " (no difference was measured in a whole model that reads its inputs from memory)";
 }
 
 // --- Masking ---
@@ -132,8 +132,8 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
        fmt::format(
-           "typically {} off measured materials, by the median of their published fits (the "
-           "exponents published with them give {} a longer tail)",
+           "the median of the published fits to measured materials is off by {} ({} of them have a "
+           "longer tail)",
            factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
        std::string(no_more),
        fmt::format("you fit gamma, too (median {:.2g} where the fit determines it): then GTR with "
@@ -279,8 +279,8 @@ void fresnel(std::vector<Decision>& to, const Facts& f, std::string_view kind) {
 
 // --- Multiple scattering ---
 
-/// Reflectance of bright metals, and of plastics.
-constexpr double bright = 0.9, plastic = 0.04;
+/// Reflectance of bright metals, of dark ones, and of plastics.
+constexpr double bright = 0.9, dark = 0.5, plastic = 0.04;
 
 const Facts::Scattering* scattering_of(const Facts& f,
                                        std::string_view id,
@@ -298,6 +298,13 @@ std::optional<double> seen_from(const Facts::Scattering& s) {
   return {};
 }
 
+/// Greatest ΔE2000 of a form at roughnesses below one.
+double most_below(const Facts::Scattering& way, double roughness) {
+  double most = 0;
+  for (std::size_t i = 0; i < way.roughness.size(); ++i)
+    if (way.roughness[i] < roughness) most = std::max(most, way.delta_e[i]);
+  return most;
+}
 /// Compensation from a roughness on, below which nothing is done: where it shows and is nearer than nothing.  No value where what it
 /// gains is not seen.
 struct Compensated {
@@ -311,23 +318,37 @@ std::optional<Compensated> compensated(const Facts::Scattering& way,
   const auto nearer = nearer_from(way, nothing), seen = seen_from(nothing);
   if (!nearer || !seen) return {};
   Compensated c{std::max(*nearer, *seen), 0, 0};
+  c.below = most_below(nothing, c.from);
   for (std::size_t i = 0; i < way.roughness.size(); ++i)
-    if (way.roughness[i] < c.from)
-      c.below = std::max(c.below, nothing.delta_e[i]);
-    else
-      c.error = std::max(c.error, way.delta_e[i]);
+    if (!(way.roughness[i] < c.from)) c.error = std::max(c.error, way.delta_e[i]);
   if (std::ranges::max(nothing.delta_e) - c.both() < just_seen) return {};
   return c;
 }
 
-void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) {
-  const auto* nothing = scattering_of(f, single, bright, of_image_light);
+/// Words for the form that leaves least below where compensation pays, if what one bounce leaves there is seen.
+std::string nearer_below(const Facts& f, double f0, bool of_image_light, const Compensated& pays) {
+  if (!(pays.below > side_by_side)) return "";
+  const Facts::Compensation* best = nullptr;
+  double least = pays.below - just_seen;
+  for (const auto& c : f.compensations)
+    if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
+        way && c.of_image_light == of_image_light && most_below(*way, pays.from) < least)
+      best = &c, least = most_below(*way, pays.from);
+  return best ? fmt::format(
+                    "; one bounce leaves too much below roughness {:g}: then {} there, {}, {}",
+                    pays.from, name_of_form(best->id), delta_at_most(least),
+                    ns_text(best->without_ns + best->ns))
+              : "";
+}
+
+void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_image_light) {
+  const auto* nothing = scattering_of(f, single, f0, of_image_light);
   const auto* of_plastic = scattering_of(f, single, plastic, of_image_light);
   if (!nothing || !of_plastic) return;
   const double without = std::ranges::max(nothing->delta_e);
   Candidates all{{std::string(single), without, 0, 0}};
   for (const auto& c : f.compensations)
-    if (const auto* way = scattering_of(f, c.id, bright, of_image_light);
+    if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
         way && c.of_image_light == of_image_light)
       if (const auto pays = compensated(*way, *nothing))
         all.push_back({c.id, pays->both(), c.ns, c.spread});
@@ -341,8 +362,9 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
   if (other && other->form != single)
     unless += fmt::format("; time is short: then {}, {}", name_of_form(other->form),
                           delta_at_most(other->error));
-  Decision d{fmt::format("Multiple scattering under {}, F0 {:g} (bright metal)",
-                         of_image_light ? "image-based light" : "single lights", bright),
+  Decision d{fmt::format("Multiple scattering under {}, F0 {:g} ({} metal)",
+                         of_image_light ? "image-based light" : "single lights", f0,
+                         f0 == bright ? "bright" : "dark"),
              "None",
              "scattering." + taken->form,
              delta_at_most(taken->error),
@@ -350,14 +372,16 @@ void scattering(std::vector<Decision>& to, const Facts& f, bool of_image_light) 
              std::move(unless)};
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
-    const auto pays =
-        *compensated(*scattering_of(f, taken->form, bright, of_image_light), *nothing);
+    const auto pays = *compensated(*scattering_of(f, taken->form, f0, of_image_light), *nothing);
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), pays.from);
     d.error = delta_at_most(pays.error);
-    if (pays.below > pays.error) d.error += fmt::format(", below it {}", at_most(pays.below));
-    d.error += fmt::format(" ({}one bounce at all roughnesses: {})",
-                           taken->error > side_by_side ? "no single form leaves less; " : "",
-                           at_most(without));
+    if (pays.below > pays.error)
+      d.error += fmt::format("; one bounce, below it, {}", at_most(pays.below));
+    d.error +=
+        fmt::format(" ({}one bounce at all roughnesses: {})",
+                    taken->error > side_by_side ? "no other form leaves less this way; " : "",
+                    at_most(without));
+    d.unless += nearer_below(f, f0, of_image_light, pays);
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
   }
@@ -461,9 +485,10 @@ void precision(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Precision: D V F NoL of GGX in half",
        fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
-       fmt::format("≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}° ("
-                   "a search found no larger error, which is no proof)",
-                   percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
+       fmt::format(
+           "≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}°, cosines in half, too ("
+           "a search found no larger error, which is no proof)",
+           percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
        fmt::format("only D is in half: then α clamped at {}{}", rounded_up(*own->safe_from),
@@ -497,8 +522,8 @@ std::vector<Decision> decisions(const Facts& f) {
   distribution(out, f);
   fresnel(out, f, "dielectric");
   fresnel(out, f, "metal");
-  scattering(out, f, false);
-  scattering(out, f, true);
+  for (const bool of_image_light : {false, true})
+    for (const double f0 : {bright, dark}) scattering(out, f, f0, of_image_light);
   image_light(out, f);
   diffuse(out, f, false);
   diffuse(out, f, true);

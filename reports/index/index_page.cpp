@@ -255,14 +255,13 @@ Section fresnel(const ReportIndex& i) {
   }
   return {
       fresnel_title,
-      "Each number is the greatest ΔE2000 of a rough surface under even light, over all "
-      "roughnesses "
-      "and 19 views (cosine 0.1 to 1), rounded up.",
+      "Each number is the greatest ΔE2000 of a rough surface under even light, over "
+      "roughnesses of 0.1 or more and 19 views (cosine 0.1 to 1), rounded up.",
       {t,
        Markup{fmt::format(
            R"(<p class="small key-of"><span class="unseen">unseen, to {0}</span><span class="beside">side by side, to {1}</span><span class="shows">seen</span><span class="unknown">– not computed</span></p>)",
            plain(just_seen), plain(side_by_side))},
-       Prose{fmt::format("ΔE2000 is scaled so that {0} is about the smallest visible difference "
+       Prose{fmt::format("ΔE2000 is scaled so that nobody sees a difference of {0} or less "
                          "(CIE 142-2001). Up to {1} a difference is seen only side by side: "
                          "observers could just see that in CIELAB (Mahy, Van Eycken and "
                          "Oosterlinck 1994).",
@@ -355,6 +354,8 @@ std::string index_page_html(const ReportIndex& i) {
             "roughness "
             "is 0.1 or more. A metal's true colour is that of its spectrum. Forms at three "
             "wavelengths use 650, 550 and 450 nm.",
+            "Diffuse forms are compared on a ball, where the cosines of light and view are 0.1 or "
+            "more.",
             "For the split sum's ΔE the exposure gives a white ball half of the display's white.",
             "A ≤ is the greatest value at the roughnesses, views and points of a ball that were "
             "computed. Between them it may be more, most so under single lights.",
@@ -369,8 +370,8 @@ std::string index_page_html(const ReportIndex& i) {
             "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
             "A cost is the median difference within a process.",
             "Times are medians over several processes on this machine. A difference counts only "
-            "if every process measured it, each time larger than the spread and than 3 % of the "
-            "time.",
+            "if every process measured it, and it was always larger than the spread and than 3 % "
+            "of the time taken.",
             "Compensations are timed in one process, one light and view at a time."}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;

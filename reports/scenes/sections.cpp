@@ -246,7 +246,10 @@ page::Page report_page(const ScenesReport& r) {
             "Plans are compared with random walks between facets, tabulated. Each point's "
             "difference has what the table may be off by added. Rows of one effect leave it out.",
             "Times are of column kernels, composed on both sides: nothing is fused for the "
-            "plan only.",
+            "plan only. Those of a scene's row and of its list of sets were measured one after the "
+            "other, and on a busy machine differ by up to a half.",
+            "A plan need not be in its list: times within twice their spreads count as the same, "
+            "and among such sets the plan takes the fewest operations.",
             fmt::format("A plan is chosen on one set of points, checked on a second, and "
                         "verified here on a third of {}.",
                         count_text(all.rows.empty() ? 0 : all.rows[0].samples))}}}}};

@@ -21,8 +21,9 @@ std::string by_clamp(const StabilityRows& r) {
     return c.where == "masking.ue_joint.clamped" && c.number == "half";
   });
   if (at == r.clamps.end() || !at->changed_to) return {};
-  return fmt::format(" Its clamp changes values by up to {}, and by over 1\u00a0% up to {} {:.2g}.",
-                     percent_at_most(at->changed_most), at->by, *at->changed_to);
+  return fmt::format(
+      " Its clamp changes values by up to {}, and by over 1\u00a0% where the {} is at most {:.2g}.",
+      percent_at_most(at->changed_most), at->by, *at->changed_to);
 }
 
 }  // namespace

@@ -72,7 +72,8 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   if (!answer.empty()) to.say(std::move(answer));
   if (const auto* mobile = find(r, "ndf.ggx.mobile", "cosine", "mixed"))
     to.say(
-        fmt::format("With NoH rounded to half in the place of |n × h|², D stays within it from "
+        fmt::format("With NoH rounded to half in the place of |n × h|², and the rest in float, D "
+                    "stays within it from "
                     "{} on{}.",
                     from_text(*mobile), evidence_text(*mobile)));
   for (const auto& h : r.highlights)

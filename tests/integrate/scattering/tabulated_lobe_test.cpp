@@ -39,10 +39,10 @@ TabulatedLobe::Value value_between(const TabulatedLobe& lobe,
 }
 
 /// Share of pairs of directions at which a table and a walk of its own differ by more than two of their standard errors.
-double share_beyond_errors(const BoundModel& m, int pairs) {
+double share_beyond_errors(const BoundModel& m, int count) {
   const TabulatedLobe lobe(m);
   int beyond = 0;
-  for (int i = 0; i < pairs; ++i) {
+  for (int i = 0; i < count; ++i) {
     Draws draw(31, i);
     const double mu_v = std::sqrt(draw.uniform()), mu_l = std::sqrt(draw.uniform());
     const Direction v = tilted(mu_v, 6.3 * draw.uniform()), l = tilted(mu_l, 6.3 * draw.uniform());
@@ -56,7 +56,7 @@ double share_beyond_errors(const BoundModel& m, int pairs) {
                                     // high, where nobody sees it
     beyond += std::abs(off) > 2 * std::hypot(found.error[0], std::sqrt(square)) + black;
   }
-  return static_cast<double>(beyond) / pairs;
+  return static_cast<double>(beyond) / count;
 }
 
 TEST(TabulatedLobe, IsThatOfAWalkWithinItsErrors) {

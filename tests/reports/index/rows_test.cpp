@@ -82,12 +82,61 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
   EXPECT_EQ(row.error,
-            fmt::format("{}{} (no single form leaves less; one bounce at all roughnesses: {})",
+            fmt::format("{}{} (no form with one bounce below leaves less; one bounce at all "
+                        "roughnesses: {})",
                         up_to(kulla), below > kulla ? ", below it " + at_most(below) : "",
                         at_most(nothing)));
   EXPECT_NE(below, kulla);
   EXPECT_NE(row.unless.find("F0 is 0.04: then one bounce, ΔE ≤ 1.4"), row.unless.npos)
       << row.unless;
+  EXPECT_EQ(row.unless.find("below that roughness"), row.unless.npos)
+      << "nothing leaves less there";
+}
+
+TEST(IndexRow, NamesTheFormThatLeavesLessBelowWhereItsOwnBegins) {
+  EnergyRows r;
+  const std::map<std::string_view, std::vector<double>> delta{
+      {"single", {7.4, 14}}, {"kulla_conty", {13.6, 2}}, {"turquin", {5.8, 11}}};
+  const std::vector roughness{0.25, 0.5};
+  for (const double f0 : {0.9, 0.04})
+    for (const auto& [id, rows] : delta)
+      for (std::size_t i = 0; i < rows.size(); ++i)
+        r.single_lights.push_back(
+            {id, "front light", f0, roughness[i], rows[i] * (f0 < 0.5 ? 0.1 : 1), 0, 0});
+  for (const auto* id : {"single", "kulla_conty", "turquin"}) {
+    CompensationCost c{};
+    c.id = id;
+    c.without_ns = 4;
+    c.ns = id == std::string("turquin") ? 8 : 17;
+    r.compensations.push_back(c);
+  }
+  const auto row = of(decisions(facts(r)), "Multiple scattering under single lights");
+  EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
+  EXPECT_NE(row.unless.find("; below that roughness, Turquin leaves ΔE ≤ 5.8 in 8.0 ns"),
+            row.unless.npos)
+      << row.unless;
+}
+
+TEST(IndexRow, OfDarkMetalHasItsOwnRoughness) {
+  EnergyRows r;
+  const std::vector roughness{0.25, 0.5, 1.0};
+  for (const auto& [f0, single] : std::map<double, std::vector<double>>{
+           {0.9, {3, 8, 14}}, {0.5, {1.8, 3, 7}}, {0.04, {0.1, 0.2, 0.3}}})
+    for (std::size_t i = 0; i < roughness.size(); ++i) {
+      r.single_lights.push_back({"single", "front light", f0, roughness[i], single[i], 0, 0});
+      r.single_lights.push_back({"kulla_conty", "front light", f0, roughness[i], 0.1, 0, 0});
+    }
+  CompensationCost c{};
+  c.id = "kulla_conty";
+  c.ns = 17, c.without_ns = 4;
+  r.compensations = {c};
+  const auto all = decisions(facts(r));
+  const std::string lights = "Multiple scattering under single lights, ";
+  EXPECT_EQ(of(all, lights + "F0 0.9 (bright metal)").take,
+            "Kulla and Conty, from roughness 0.25 on");
+  EXPECT_EQ(of(all, lights + "F0 0.5 (dark metal)").take, "Kulla and Conty, from roughness 0.5 on");
+  EXPECT_EQ(of(all, lights + "F0 0.5 (dark metal)").unless, "F0 is 0.04: then one bounce, ΔE ≤ 0.3")
+      << "what one bounce lacks at 0.25 is not seen";
 }
 
 TEST(IndexRow, OfPlasticCompensatesNothingThatNobodySees) {
