@@ -52,6 +52,8 @@ std::string value_in_words(const FittedParameter& p, std::size_t c) {
 /// Why no more is known of it.
 std::string status_in_words(const FittedParameter& p, std::size_t c) {
   const std::string reason = p.reason[c].empty() ? "" : "; " + p.reason[c];
+  const std::string best =
+      std::isnan(p.value[c]) ? "" : fmt::format("; best value {:.3g}", p.value[c]);
   switch (p.status[c]) {
     case ParameterStatus::free:
     case ParameterStatus::unbounded:
@@ -63,9 +65,9 @@ std::string status_in_words(const FittedParameter& p, std::size_t c) {
     case ParameterStatus::not_identifiable:
       return "not known" + reason;
     case ParameterStatus::upper_limit:
-      return "at most, at 95 %" + reason;
+      return "at most, at 95 %" + best + reason;
     case ParameterStatus::lower_limit:
-      return "at least, at 95 %" + reason;
+      return "at least, at 95 %" + best + reason;
   }
   return "";
 }

@@ -125,7 +125,7 @@ std::vector<std::string> warnings(const FitOptions& o,
         "to dark places",
         only_negative_channel(t), d.log_offset));
   for (auto& w : misfit_in_words(d.misfit, has_intervals(d))) all.push_back(std::move(w));
-  for (auto& w : physics_in_words(d.physics)) all.push_back(std::move(w));
+  for (auto& w : physics_in_words(d.physics, d.misfit.told)) all.push_back(std::move(w));
   if (const auto& odd = f.odd_angle)
     all.push_back(fmt::format(
         "values at theta_i {:.3g}° are {:.3g} × what the model and the other angles say: another "
@@ -197,7 +197,7 @@ bool returns_too_much(const Physics& p) {
   });
 }
 
-std::vector<std::string> physics_in_words(const Physics& p) {
+std::vector<std::string> physics_in_words(const Physics& p, bool misfit) {
   std::vector<std::string> all;
   double most = all_light, at = 0, table = 0;
   for (std::size_t k = 0; k < p.theta_i_deg.size(); ++k)
@@ -212,7 +212,8 @@ std::vector<std::string> physics_in_words(const Physics& p) {
         "the fitted model returns {:.4g} of the light that arrives at theta_i {:.3g}°{}: more than "
         "there is",
         most, at, std::isnan(table) ? "" : fmt::format(" (the table {:.3g})", table)));
-  constexpr double far_above = 1.5;
+  constexpr double far_above =
+      1.5;           // or as far below, which alone is no fault: logs weigh few values little
   double ratio = 0;  // of channels that are dark in the model too there is none
   bool dark = false;
   for (const double r : p.peak_ratio)
@@ -222,7 +223,7 @@ std::vector<std::string> physics_in_words(const Physics& p) {
       ratio = std::max(ratio, r);
   if (dark)
     all.emplace_back("the fitted model is not dark where a channel of the table is 0 everywhere");
-  if (ratio > far_above)
+  if (ratio > far_above || (misfit && ratio > 0 && ratio < 1 / far_above))
     all.push_back(fmt::format(
         "at the table's own samples the fitted model peaks at {} times the table's greatest value",
         factor(ratio)));
@@ -244,11 +245,11 @@ std::vector<std::string> misfit_in_words(const Misfit& m, bool allowed_for) {
     size += std::string(k == 0 ? ", varying " : " and ") +
             (m.follows[k].starts_with("grazing") ? "at " : "with ") + m.follows[k];
   std::vector<std::string> all{"beyond noise the model is off by a factor of " + size +
-                               (allowed_for ? "; intervals allow for it" : "")};
+                               (allowed_for ? "; intervals are widened" : "")};
   if (const auto& c = m.worst_cell)
     all.push_back(fmt::format(
-        "the largest systematic deviation is near theta_h {:.2g}°, theta_d {:.2g}°: "
-        "the model is {}",
+        "averaged over regions, the model is furthest off near theta_h {:.2g}°, theta_d "
+        "{:.2g}°: {}",
         (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
         (c->theta_d_from_deg + c->theta_d_to_deg) / 2, deviation_in_words(1 + c->difference)));
   return all;

@@ -262,7 +262,10 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
                          ? fmt::format("{} … {}", number(r, r.low), number(r, r.high))
                          : "–",
                      "", known(r.limit) ? "" : cut(r));
-    row.push_back({std::string(status_words(name_of(r.status))), "", r.reason,
+    const std::string best =
+        known(r.limit) && known(r.value) ? "best value " + significant(r.value) : "";
+    row.push_back({std::string(status_words(name_of(r.status))), "",
+                   best.empty() || r.reason.empty() ? best + r.reason : best + "; " + r.reason,
                    fmt::format("status {}", name_of(r.status))});
     if (with_truth) {
       row.emplace_back(plain(r.truth));
@@ -373,7 +376,7 @@ std::string fit_page_html(const FitDocument& d,
                   albedo(d, h, pictures),
                   search(d, pictures),
                   confidence(d, pictures),
-                  trust_section(t, h),
+                  trust_section(t, h, all_values > h.values),
                   solver(d, pictures),
                   input(d, document)};
   out.setting =

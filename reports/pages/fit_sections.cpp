@@ -80,8 +80,9 @@ std::string map_words(const ResidualMap& m, double limit) {
     return degrees_text((edges[i] + edges[i + 1]) / 2);
   };
   return fmt::format(
-      "In half of the {} cells the model is off by at most ×/÷ {}. Worst single cell, noise "
-      "included: {}, at θ_h {}, θ_d {}. The strongest colours stand for ×/÷ {} or more.",
+      "In half of the {} cells the model is off by at most ×/÷ {}. Worst single cell, "
+      "which may be one bad sample: {}, at θ_h {}, θ_d {}. The strongest colours stand for ×/÷ {} "
+      "or more.",
       count, typical_factor(median(sizes)), deviation_in_words(std::exp(m.mean[worst])),
       middle(m.theta_h_deg, worst / nd), middle(m.theta_d_deg, worst % nd),
       typical_factor(std::log(limit)));
@@ -136,7 +137,9 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
   if (!m.measured.empty()) {
     Figure f = make_figure("predicted", {});
     f.title = "Predicted against measured";
-    f.note = count_text(m.measured.size()) + " values, evenly spread over the table";
+    f.note = m.measured.size() == d.values_used
+                 ? "all " + count_text(d.values_used) + " values used"
+                 : count_text(m.measured.size()) + " values, evenly spread over the table";
     f.x = {"table [1/sr]", true};
     f.y = {"model [1/sr]", true};
     f.curves.push_back({"value", m.measured, m.predicted, FigureCurve::Kind::points});
@@ -236,9 +239,8 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   if (!ratios.empty()) {
     const auto [low, high] = std::ranges::minmax(ratios);
     const auto a = plain(low, 2), b = plain(high, 2);
-    words += fmt::format(
-        " The model's greatest value at the table's samples is {}{} times the table's{}.",
-        a == b ? "" : a + " to ", b, a == b ? "" : " (by channel)");
+    words += fmt::format(" At the table's samples, the model's peak is {}{} times the table's{}.",
+                         a == b ? "" : a + " to ", b, a == b ? "" : " (by channel)");
   }
   const Shown picture{f.family, {}, 260};
   pictures.figures.push_back(std::move(f));
@@ -247,7 +249,7 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
       fmt::format("Share of the light from one direction that is reflected into all others. {}",
                   has_data ? "Where samples are missing or too far apart, the table gives no value."
                   : h.albedo.empty()
-                      ? "The table has too few directions for its own."
+                      ? "The table has too few directions to compute its own."
                       : "The table's own stands under “What the table can be trusted for”."),
       {Prose{std::move(words)}, Group{"columns light", {picture, std::move(t)}}}};
 }

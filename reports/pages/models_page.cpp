@@ -506,10 +506,9 @@ std::string ModelsSections::html() {
             "log RMS on incident angles that were held out of the fit. It grows where a model has "
             "more parameters than the table can determine"},
            {"as good",
-            "at most 5 % more of it than the best model, or as much as few values make by chance, "
-            "and within "
-            "Student's t standard errors over the blocks; or 0.1 % more; and a BIC that is no more "
-            "than 10 higher"},
+            "close to the best model by both. Unseen: at most 5 % above, or what chance adds where "
+            "values are few, and within its error over the blocks; 0.1 % above always counts. BIC: "
+            "at most 10 above"},
            {"BIC",
             "judges the fit to the whole table, and penalises each free value; less is better, and "
             "only differences count"},

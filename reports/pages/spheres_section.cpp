@@ -65,11 +65,15 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
             ? fmt::format("under each of the {} lights", shown.size() == 3 ? "three" : "two")
             : "under " + shown[0]->light,
         delta_e_text(std::max(tail, 0.01)), part);
-  const auto half = fmt::format(
-      "Under {}, the worst light, half of the pixels are within ΔE2000 {}, and 95\u202f% within "
-      "{}{}.",
-      w.light, delta_e_text(most.median), delta_e_text(tail),
-      &widest == &w ? "" : fmt::format(" (worst under {})", widest.light));
+  const auto half =
+      &widest == &w ? fmt::format(
+                          "Under {}, the worst light, half of the pixels are within ΔE2000 {}, and "
+                          "95\u202f% within {}.",
+                          w.light, delta_e_text(most.median), delta_e_text(tail))
+                    : fmt::format(
+                          "Half of the pixels are within ΔE2000 {} under {}, where most are off. "
+                          "95\u202f% are within {} under {}, where the largest errors are.",
+                          delta_e_text(most.median), w.light, delta_e_text(tail), widest.light);
   const double apart = widest.models[best].spacing_p95;
   const auto spacing =
       apart > 0.5 * tail
@@ -158,9 +162,9 @@ std::string how(const Spheres& s, bool has_columns) {
       "the sphere. Flash: one, 10° above the viewer. The table's 99th percentile of "
       "luminance under each light is shown as white. {}{}{}{}",
       has_nearest(s)
-          ? fmt::format("Each pixel shows the table's nearest sample. Light and viewer may be "
-                        "up to {}° off; samples mirrored at the plane of incidence, or with "
-                        "light and view exchanged, also count.",
+          ? fmt::format("Each pixel shows the table's nearest sample, whose light and viewer are "
+                        "within {}° of the pixel's. Samples mirrored at the plane of incidence, "
+                        "or with light and view exchanged, also count.",
                         Spheres::reach_deg)
           : std::string("For each pixel the table is interpolated."),
       colours
@@ -170,8 +174,8 @@ std::string how(const Spheres& s, bool has_columns) {
       has_columns ? " Covered: share of the lit pixels for which the table has a value." : "",
       has_columns && has_nearest(s)
           ? " From spacing only: "
-            "what the spacing of the samples would make of an exact model, here the fit sampled at "
-            "the table's directions."
+            "the ΔE2000 that spacing causes by itself, found by sampling the fit at the table's "
+            "directions."
           : "");
 }
 
@@ -196,8 +200,8 @@ page::Section spheres_section(const Spheres& s, std::string_view name, std::size
   }
   if (shown.empty()) {
     out.text = fmt::format(
-        "No sphere is shown: the table covers {} of what each of the three lights reaches, and a "
-        "third is needed.",
+        "No sphere is shown: the table has samples for {} of a sphere's lit pixels, and a third is "
+        "needed.",
         most > 0 ? "at most " + rounded_up(100 * most) + "\u202f%" : "none");
     return out;
   }

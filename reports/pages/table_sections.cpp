@@ -7,6 +7,7 @@
 
 #include "base/few.h"
 #include "base/quantile.h"
+#include "base/text.h"
 #include "reports/page/numbers.h"
 #include "reports/pages/drawn_channels.h"
 
@@ -72,6 +73,13 @@ Figure cut_figure(const std::vector<std::string>& channels, const Cut& cut, bool
     f.y.from = log ? least / room : std::min(0.0, 1.06 * least);
     f.y.to = log ? most * room : 1.06 * most;
   }
+  std::size_t outside = 0;  // which would squeeze the rest
+  for (const auto& data : cut.data)
+    for (const double y : data)
+      if (std::isfinite(y) && (!log || y > 0) && !(y >= f.y.from && y <= f.y.to)) ++outside;
+  if (outside && most > 0)
+    f.note += fmt::format("{}{} outside the picture", f.note.empty() ? "" : "; ",
+                          counted(outside, "value"));
   for (std::size_t c = 0; c < channels.size(); ++c) {
     const auto& name = channels[c];
     f.curves.push_back(points_of(several ? name : "table", cut.deg, cut.data[c]));
@@ -264,7 +272,7 @@ std::string noise_words(const Noise& n) {
       n.along == "repeats" ? "repeated samples" : "neighbours along " + with_signs(n.along));
 }
 
-page::Section trust_section(const gonio::Table& t, const Health& h) {
+page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
   using namespace page;
   const bool several = t.channels.size() > 1;
   const auto of = [&](std::size_t n) {
@@ -285,7 +293,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
                             significant(h.largest)));
   fact("noise floor", h.noise_floor > 0
                           ? significant(h.noise_floor) + " 1/sr, from the negative values"
-                          : "not found");
+                          : "none estimated: too few negative values");
   if (h.reciprocity_error)
     fact("reciprocity", fmt::format("{}: median change when light and view are exchanged{}{}",
                                     percent(*h.reciprocity_error),
@@ -333,10 +341,11 @@ page::Section trust_section(const gonio::Table& t, const Health& h) {
                                      {"seed", fmt::to_string(t.truth->seed)}}});
   }
   return {"What the table can be trusted for",
-          h.albedo.empty()
-              ? "These figures need no fit."
-              : "These figures need no fit. Coverage is the share of the cosine-weighted "
-                "hemisphere near valid samples.",
+          fmt::format("These figures need no fit.{}{}",
+                      part ? " They are of the samples that the mask leaves." : "",
+                      h.albedo.empty() ? ""
+                                       : " Coverage is the share of the cosine-weighted hemisphere "
+                                         "near valid samples."),
           {Group{"columns", {std::move(facts), std::move(beside)}}}};
 }
 

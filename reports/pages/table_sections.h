@@ -43,6 +43,7 @@ page::Section curves_section(const Table&,
                              Pictures&);
 /// Noise in a few words: "about 2 % of each value, from repeated samples".
 std::string noise_words(const Noise&);
-page::Section trust_section(const Table&, const Health&);
+/// \param part  a mask left out samples that the table had
+page::Section trust_section(const Table&, const Health&, bool part = false);
 
 }  // namespace gonio

@@ -77,5 +77,15 @@ TEST(Physics, IsWarnedOfWhereTheModelRisesAboveTheTable) {
   EXPECT_EQ(sentences(0.5), 1U);
 }
 
+TEST(Physics, IsWarnedOfWhereAModelThatMissesTheTableHasALowerPeak) {
+  Physics p;
+  p.peak_ratio = {0.1, 0.09};
+  EXPECT_EQ(physics_in_words(p, false).size(), 0U);
+  EXPECT_EQ(physics_in_words(p, true),
+            std::vector<std::string>{
+                "at the table's own samples the fitted model peaks at 0.1 times the table's "
+                "greatest value"});
+}
+
 }  // namespace
 }  // namespace gonio

@@ -73,17 +73,16 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   EXPECT_EQ(misfit_in_words(m, true),
             (std::vector<std::string>{
                 "beyond noise the model is off by a factor of 1.088, "
-                "varying with every angle; intervals allow for it",
-                "the largest systematic deviation is near theta_h 16°, theta_d 68°: the model is "
-                "too dark by a factor of 1.43"}));
+                "varying with every angle; intervals are widened",
+                "averaged over regions, the model is furthest off near theta_h 16°, "
+                "theta_d 68°: too dark by a factor of 1.43"}));
   m.follows = {"theta_h", "grazing angles"};
   EXPECT_NE(misfit_in_words(m, true)[0].find("varying with theta_h and at grazing angles;"),
             std::string::npos);
   m.worst_cell->difference = 2.4;
-  EXPECT_TRUE(
-      misfit_in_words(m, true)[1].ends_with(": the model is too bright by a factor of 3.4"));
+  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": too bright by a factor of 3.4"));
   m.worst_cell->difference = 1.0 / 150 - 1;
-  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": the model is too dark by a factor of 150"));
+  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": too dark by a factor of 150"));
   m.told = false;
   EXPECT_TRUE(misfit_in_words(m, true).empty());
 }
@@ -96,7 +95,7 @@ TEST(Warnings, SayThatIntervalsAllowForAMisfitOnlyWhereThereAreSome) {
   const auto said = [&](ParameterStatus status, ParameterStatus other) {
     d.parameters = {{"kd", {0.1, 0.1}, {1, 1}, {0, 0}, {1, 1}, {status, other}, {none, none}, {}}};
     d.parameters[0].reason = {"", ""};
-    return warnings({}, Table{}, d, {})[0].ends_with("; intervals allow for it");
+    return warnings({}, Table{}, d, {})[0].ends_with("; intervals are widened");
   };
   using enum ParameterStatus;
   EXPECT_TRUE(said(unbounded, free));
