@@ -36,11 +36,24 @@ constexpr std::array lights{Light{"front light", 0}, Light{"side light", 60},
                             Light{"rim light", 120}};
 constexpr const char* even_light = "even light";
 
-/// Points of a ball, seen from afar, that one light reaches, but for the rim, whose error grows with the cosine's inverse.
-std::vector<Angles<double>> lit_points(double from_viewer_deg, std::size_t pixels) {
-  std::vector<Angles<double>> out;
+/// Points of a ball, seen from afar, that one light reaches, but for the rim beyond least_colour_cosine.
+struct LitPoints {
+  std::vector<Angles<double>> at;
+  std::size_t inside = 0;  ///< the first so many are a picture's; the others lie where the rim
+                           ///< begins, as errors are largest there
+};
+LitPoints lit_points(double from_viewer_deg, std::size_t pixels) {
+  LitPoints out;
   const double t = from_viewer_deg * degree;
   const Direction light{std::sin(t), 0, std::cos(t)};
+  const double voh = std::cos(t / 2);
+  const Direction h{light.x / (2 * voh), 0, (light.z + 1) / (2 * voh)};
+  const auto add = [&](double x, double y, double nov, double nol) {
+    const double noh = (nol + nov) / (2 * voh);
+    // |n × h|² from both vectors, as it cancels near the peak
+    const double cx = y * h.z, cy = nov * h.x - x * h.z, cz = -y * h.x;
+    out.at.push_back({nol, nov, std::min(noh, 1.0), voh, cx * cx + cy * cy + cz * cz});
+  };
   for (std::size_t i = 0; i < pixels; ++i)
     for (std::size_t j = 0; j < pixels; ++j) {
       const auto at = [&](std::size_t k) {
@@ -49,13 +62,19 @@ std::vector<Angles<double>> lit_points(double from_viewer_deg, std::size_t pixel
       const double x = at(i), y = at(j), z2 = 1 - x * x - y * y;
       if (z2 <= 0) continue;
       const double nov = std::sqrt(z2), nol = x * light.x + nov * light.z;
-      if (nov < least_colour_cosine || nol < least_colour_cosine) continue;
-      const double voh = std::cos(t / 2), noh = (nol + nov) / (2 * voh);
-      // |n × h|² from both vectors, as it cancels near the peak
-      const Direction h{light.x / (2 * voh), 0, (light.z + 1) / (2 * voh)};
-      const double cx = y * h.z, cy = nov * h.x - x * h.z, cz = -y * h.x;
-      out.push_back({nol, nov, std::min(noh, 1.0), voh, cx * cx + cy * cy + cz * cz});
+      if (nov >= least_colour_cosine && nol >= least_colour_cosine) add(x, y, nov, nol);
     }
+  out.inside = out.at.size();
+  const double least = least_colour_cosine;
+  for (std::size_t i = 0; i <= pixels; ++i) {
+    const double part = static_cast<double>(i) / static_cast<double>(pixels);
+    const double across = std::sqrt(1 - least * least);  // of all points at that cosine to the view
+    const double x = across * (2 * part - 1), nol = x * light.x + least * light.z;
+    if (nol >= least) add(x, std::sqrt(across * across - x * x), least, nol);
+    const double nov = std::lerp(least, 1.0, part), of_light = (least - nov * light.z) / light.x;
+    if (const double y2 = 1 - nov * nov - of_light * of_light; y2 >= 0)
+      add(of_light, std::sqrt(y2), nov, least);
+  }
   return out;
 }
 
@@ -93,7 +112,11 @@ class LobeAlbedo {
 using Channels = std::vector<std::vector<double>>;  ///< [channel][point]
 
 /// ΔE2000 at points, radiance of light that makes white of a white diffuser that faces it.
-DiffuseColour compared(const Channels& found, const Channels& truth, std::span<const double> of) {
+/// \param inside  the mean is of the first so many
+DiffuseColour compared(const Channels& found,
+                       const Channels& truth,
+                       std::span<const double> of,
+                       std::size_t inside) {
   DiffuseColour c{};
   for (std::size_t i = 0; i < of.size(); ++i) {
     const auto seen = [&](const Channels& f) {
@@ -101,7 +124,7 @@ DiffuseColour compared(const Channels& found, const Channels& truth, std::span<c
     };
     const double off = displayed_difference(seen(found), seen(truth), 1);
     c.delta_e = std::max(c.delta_e, off);
-    c.delta_e_mean += off / static_cast<double>(of.size());
+    if (i < inside) c.delta_e_mean += off / static_cast<double>(inside);
   }
   return c;
 }
@@ -129,20 +152,20 @@ class Comparison {
           given_back.push_back(is_of(f, plastic) ? least_share(average(models.back()), target) : 1);
         }
         for (std::size_t l = 0; l < lights.size(); ++l) {
-          const auto truth = reference_values(eon, m, points_[l], plastic);
+          const auto truth = reference_values(eon, m, points_[l].at, plastic);
           std::vector<double> light;
-          for (const auto& p : points_[l]) light.push_back(pi * p.nol);
+          for (const auto& p : points_[l].at) light.push_back(pi * p.nol);
           for (std::size_t f = 0; f < forms_.size(); ++f)
             if (is_of(forms_[f], plastic))
               put(out, forms_[f], m, plastic, lights[l].name, given_back[f],
-                  compared(evaluate(models[f], points_[l]), truth, light));
+                  compared(evaluate(models[f], points_[l].at), truth, light, points_[l].inside));
         }
         const auto truth = reference_albedo(eon, m, plastic);
         const std::vector<double> ones(o_.mu.size(), 1);
         for (std::size_t f = 0; f < forms_.size(); ++f)
           if (is_of(forms_[f], plastic))
             put(out, forms_[f], m, plastic, even_light, given_back[f],
-                compared(albedo(models[f]), truth, ones));
+                compared(albedo(models[f]), truth, ones, ones.size()));
       }
     return out;
   }
@@ -257,7 +280,7 @@ class Comparison {
   const std::vector<DiffuseForm>& forms_;
   double roughness_;
   LobeAlbedo lobe_;
-  std::vector<std::vector<Angles<double>>> points_;  ///< by light
+  std::vector<LitPoints> points_;  ///< by light
 };
 
 }  // namespace

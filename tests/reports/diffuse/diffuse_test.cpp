@@ -85,6 +85,21 @@ TEST(DiffuseReport, OfASmoothMatteSurfaceLambertIsTheReference) {
   EXPECT_GT(*largest_difference(report().rows.colours, "diffuse.lambert", "matte", 1), 2);
 }
 
+TEST(DiffuseReport, AFinerPictureOfTheBallFindsHardlyLargerErrors) {
+  const auto of = [](std::size_t pixels) {
+    DiffuseOptions o;
+    o.roughness = {1};
+    o.mu = {0.5, 1};
+    o.pixels = pixels;
+    return diffuse_colours(o, diffusing::known_forms(), [](double) {});
+  };
+  const auto coarse = of(48), fine = of(72);
+  ASSERT_EQ(coarse.size(), fine.size());
+  for (std::size_t i = 0; i < fine.size(); ++i)
+    EXPECT_NEAR(coarse[i].delta_e, fine[i].delta_e, 0.02 * fine[i].delta_e + 0.05)
+        << fine[i].form << ", " << fine[i].light;
+}
+
 TEST(DiffuseReport, TheReferenceOnPlasticKeepsAllLight) {
   // White chalk below the lobe: nothing is lost and nothing made, so its albedo is 1.
   DiffuseOptions o;

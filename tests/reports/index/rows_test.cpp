@@ -81,15 +81,15 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
     if (s.roughness < 0.5 && s.id == "single") below = std::max(below, s.delta_e + s.error);
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(row.error,
-            fmt::format("{}{} (no form with one bounce below leaves less; one bounce at all "
-                        "roughnesses: {})",
-                        up_to(kulla), below > kulla ? ", below it " + at_most(below) : "",
-                        at_most(nothing)));
+  EXPECT_EQ(
+      row.error,
+      fmt::format("{}{} (no other form leaves less this way; one bounce at all roughnesses: {})",
+                  up_to(kulla), below > kulla ? "; one bounce, below it, " + at_most(below) : "",
+                  at_most(nothing)));
   EXPECT_NE(below, kulla);
   EXPECT_NE(row.unless.find("F0 is 0.04: then one bounce, ΔE ≤ 1.4"), row.unless.npos)
       << row.unless;
-  EXPECT_EQ(row.unless.find("below that roughness"), row.unless.npos)
+  EXPECT_EQ(row.unless.find("one bounce leaves too much"), row.unless.npos)
       << "nothing leaves less there";
 }
 
@@ -112,8 +112,10 @@ TEST(IndexRow, NamesTheFormThatLeavesLessBelowWhereItsOwnBegins) {
   }
   const auto row = of(decisions(facts(r)), "Multiple scattering under single lights");
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_NE(row.unless.find("; below that roughness, Turquin leaves ΔE ≤ 5.8 in 8.0 ns"),
-            row.unless.npos)
+  EXPECT_NE(
+      row.unless.find(
+          "; one bounce leaves too much below roughness 0.5: then Turquin there, ΔE ≤ 5.8, 8.0 ns"),
+      row.unless.npos)
       << row.unless;
 }
 
@@ -261,11 +263,12 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   auto all = facts(r);
   join(all, facts(timed({"ggx/smith_ggx.correlated/schlick", "gtr/smith_gtr.correlated/schlick"})));
   const auto row = of(decisions(all), "Distribution");
-  EXPECT_EQ(row.error,
-            fmt::format("typically ×/÷ {:.3g} off measured materials, by the median of their "
-                        "published fits (the exponents published with them give 17 of 20 a "
-                        "longer tail)",
-                        std::exp(0.395)));  // between the tenth and the eleventh
+  EXPECT_EQ(
+      row.error,
+      fmt::format(
+          "the median of the published fits to measured materials is off by ×/÷ {:.3g} (17 of 20 "
+          "of them have a longer tail)",
+          std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(row.unless,
             fmt::format("you fit gamma, too (median 1.5 where the fit determines it): then GTR "
                         "with its own Smith, typically "
@@ -286,7 +289,8 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   const auto row = of(decisions(facts(r)), "Precision");
   EXPECT_EQ(row.take, "|n × h|², α clamped at 0.038") << "at 0.037 it is not kept";
   EXPECT_EQ(row.error,
-            "≤ 2.2\u00a0% where F0 is 0.5 or more, light and view up to 88° (a search found no "
+            "≤ 2.2\u00a0% where F0 is 0.5 or more, light and view up to 88°, cosines in half, too "
+            "(a search found no "
             "larger error, which is no proof)");
   EXPECT_EQ(row.cost, "surfaces below roughness 0.2 look like 0.2");
   r.highlights[0].safe_from.reset();
