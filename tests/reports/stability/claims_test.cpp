@@ -45,8 +45,9 @@ TEST(StabilityClaims, SayWhatTheClampChangesBesideRounding) {
   test::expect_plain(said);
   const auto& verdict = said.claims.at(0).verdict;
   EXPECT_NE(verdict.find("off by up to 0.24\u00a0% by rounding"), verdict.npos) << verdict;
-  EXPECT_NE(verdict.find("by up to 100\u00a0%, and by over 1\u00a0% up to cosine 0.016."),
-            verdict.npos)
+  EXPECT_NE(
+      verdict.find("by up to 100\u00a0%, and by over 1\u00a0% where the cosine is at most 0.016."),
+      verdict.npos)
       << verdict;
 }
 

@@ -133,9 +133,10 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
             "computes |n × h|².")
       << "0.0039 would be below the limit";
   EXPECT_EQ(f.sentences[1], "A clamp there changes only surfaces of a roughness below 0.063.");
-  EXPECT_EQ(f.sentences[2],
-            "With NoH rounded to half in the place of |n × h|², D stays within it from alpha 0.22 "
-            "on, as far as a search found.");
+  EXPECT_EQ(
+      f.sentences[2],
+      "With NoH rounded to half in the place of |n × h|², and the rest in float, D stays within it "
+      "from alpha 0.22 on, as far as a search found.");
   EXPECT_TRUE(says(f,
                    "Beckmann from |n × h|² in half does not stay within 2\u00a0%: even from alpha "
                    "0.05 on there are "
