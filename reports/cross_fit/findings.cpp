@@ -209,8 +209,7 @@ void lost_energy(Findings& to, const CrossFitRows& r) {
   if (!all.empty())
     to.say(
         fmt::format("These fits leave a log-RMS residual of {:.2g} over all of them, of which "
-                    "{:.1g} is noise of "
-                    "the random walks that made the truth.",
+                    "{:.1g} is noise of the random walks that made the truth.",
                     rms_residual(all), rms_noise(all)));
 }
 

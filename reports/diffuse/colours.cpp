@@ -13,6 +13,7 @@
 #include "integrate/albedo/directional_albedo.h"
 #include "integrate/rule/quadrature.h"
 #include "reports/diffuse/forms.h"
+#include "reports/finding/facts.h"
 
 namespace gonio {
 namespace {

@@ -59,9 +59,6 @@ struct DiffuseRows {
   std::vector<DiffuseColour> colours;
 };
 
-/// Colours are compared where light and view have this cosine or more.
-constexpr double least_colour_cosine = 0.1;
-
 struct DiffuseOptions {
   bool full = false;
   std::vector<double> roughness, mu;  ///< ascending

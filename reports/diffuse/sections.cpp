@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "reports/diffuse/diffuse.h"
+#include "reports/finding/facts.h"
 #include "reports/finding/words.h"
 #include "reports/page/numbers.h"
 #include "reports/page/section.h"

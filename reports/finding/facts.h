@@ -12,6 +12,8 @@ namespace gonio {
 
 /// Least cosine at which the light that diffuse terms give back is looked at: nearer to grazing it may be more.
 inline constexpr double least_diffuse_cosine = 0.02;
+/// Colours of diffuse forms are compared where light and view have this cosine or more.
+inline constexpr double least_colour_cosine = 0.1;
 
 struct Facts {
   /// Machine, and the columns that times are of.

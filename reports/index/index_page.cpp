@@ -354,8 +354,9 @@ std::string index_page_html(const ReportIndex& i) {
             "roughness "
             "is 0.1 or more. A metal's true colour is that of its spectrum. Forms at three "
             "wavelengths use 650, 550 and 450 nm.",
-            "Diffuse forms are compared on a ball, where the cosines of light and view are 0.1 or "
-            "more.",
+            fmt::format("Diffuse forms are compared on a ball, where the cosines of light and view "
+                        "are {:g} or more.",
+                        least_colour_cosine),
             "For the split sum's ΔE the exposure gives a white ball half of the display's white.",
             "A ≤ is the greatest value at the roughnesses, views and points of a ball that were "
             "computed. Between them it may be more, most so under single lights.",

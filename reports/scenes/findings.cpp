@@ -54,27 +54,25 @@ std::string scenes_text(const std::vector<const SceneRow*>& rows) {
 
 /// Time that plans save, and where they save nothing.
 void savings(Findings& to, const ScenesRows& r) {
-  std::vector<double> all;
   std::vector<const SceneRow*> none, slower;
   std::vector<SceneRow> held;  // a plan that does not hold saves what is seen
   std::ranges::copy_if(r.rows, std::back_inserter(held), &SceneRow::holds);
   if (held.empty()) return;
   for (const auto& row : held) {
-    all.push_back(saved(row));
     if (saved(row) < -little)
       slower.push_back(&row);
     else if (saved(row) < little)
       none.push_back(&row);
   }
-  std::ranges::sort(all);
   const auto& least = *std::ranges::min_element(
       held, {}, [](const SceneRow& row) { return saved(row) < -little ? 1 : saved(row); });
   const auto& most = *std::ranges::max_element(held, {}, saved);
+  const auto up_to = percent(saved(most), 2);
   const auto save = of_all(held.size() - none.size() - slower.size(), held.size());
   to.say(fmt::format(
       "At {}, plans save a tenth or more of a float shader's time in {} scenes whose plans hold, "
       "and {} for {}. {}.",
-      no_difference, save, percent(all.back(), 2), scene_text(most),
+      no_difference, save, up_to, scene_text(most),
       none.empty() ? fmt::format("The least is saved for {}", scene_text(least))
                    : fmt::format("As good as nothing can be saved for {}", scenes_text(none))));
   for (const bool by_table : {true, false}) {
@@ -95,7 +93,7 @@ void savings(Findings& to, const ScenesRows& r) {
   to.headline = fmt::format(
       "Leaving out what nobody sees saves a tenth or more of a shader's time in {} scenes whose "
       "plans hold, and up to {}.{}",
-      save, percent(all.back(), 2),
+      save, up_to,
       slower.empty()
           ? ""
           : fmt::format(" In {} of them the plan takes at least a tenth longer.", slower.size()));
