@@ -192,30 +192,36 @@ class AroundOneLight {
   /// Half the angle between the mirror direction and the sample nearest to it.
   double from_mirror() const { return innermost_->theta_h; }
 
-  /// f where both logarithms and values are interpolated over θ_h, from the nearest sample to the nearest one on the
-  /// other side of the place: a highlight lies along circles of θ_h.  Nearer to the mirror direction than any sample it
-  /// rises by nobody knows how much, at most about as steeply as farther out.
-  void operator()(const DirectionPair& p, std::span<double> f, std::span<double> otherwise) const {
+  /// Of a channel at a place.
+  struct Between {
+    double line, middle, doubt;
+  };
+  /// f interpolated over θ_h from the nearest sample to the nearest one on the other side of the place: by a line, and midway
+  /// between that and a line of logarithms, since a highlight lies along circles of θ_h, and its flank between the two.
+  /// Nearer to the mirror direction than any sample it rises by nobody knows how much, at most about as steeply as farther
+  /// out.
+  void operator()(const DirectionPair& p, std::span<Between> channels) const {
     const double theta_h = theta_of(half_vector_of(p.wi, p.wo));
     const Near n = near(p.wo, theta_h);
-    for (std::size_t c = 0; c < f.size(); ++c) {
+    for (std::size_t c = 0; c < channels.size(); ++c) {
       const double first = value(n.first, c), other = value(n.across, c);
-      double doubt = 0;
-      f[c] = first;
+      Between& f = channels[c];
+      f = {first, first, 0};
       if (!std::isnan(other)) {
         const double part = std::clamp(
             (theta_h - n.first->theta_h) / (n.across->theta_h - n.first->theta_h), 0.0, 1.0);
-        f[c] = std::lerp(first, other, part);
-        doubt =
-            f[c] - std::pow(std::max(first, 0.0), 1 - part) * std::pow(std::max(other, 0.0), part);
+        f.line = std::lerp(first, other, part);
+        f.doubt = f.line -
+                  std::pow(std::max(first, 0.0), 1 - part) * std::pow(std::max(other, 0.0), part);
+        // Noise below 0 has no logarithm.
+        f.middle = first > 0 && other > 0 ? f.line - f.doubt / 2 : f.line;
       } else if (theta_h < innermost_->theta_h) {
         const double in = value(innermost_, c), out = value(next_, c);
-        if (in > 0 && out > 0) doubt = first * std::abs(in / out - 1);
+        if (in > 0 && out > 0) f.doubt = first * std::abs(in / out - 1);
       } else {
         const double second = value(n.second, c);
-        doubt = std::isnan(second) ? std::abs(first) : std::abs(first - second) / 2;
+        f.doubt = std::isnan(second) ? std::abs(first) : std::abs(first - second) / 2;
       }
-      if (!otherwise.empty()) otherwise[c] = f[c] - doubt;
     }
   }
 
@@ -339,22 +345,25 @@ TableAlbedo albedo_of_list(const Table& t, const PeakSearch& search) {
     for (const std::size_t i : samples) halves[Draws(1, i).uniform() < 0.5].push_back(i);
     const std::array of_half{AroundOneLight(t, halves[0], half, noisy),
                              AroundOneLight(t, halves[1], half, noisy)};
-    std::vector<double> there(t.channels.size());
-    AlbedoSample a = integrate(incident.first, t.channels.size(),
-                               [&](const DirectionPair& p, bool all, Values3& v) {
-                                 f(p, v.f, all ? v.otherwise : std::span<double>());
-                                 if (!all) return;
-                                 v.coarse = v.f;
-                                 v.apart.assign(there.size(), 0);
-                                 for (double sign : {-1.0, 1.0}) {
-                                   of_half[sign > 0](p, there, {});
-                                   for (std::size_t c = 0; c < there.size(); ++c) {
-                                     if (!std::isfinite(there[c])) continue;
-                                     v.coarse[c] += 2 * (there[c] - v.f[c]);
-                                     v.apart[c] += sign * (there[c] - v.f[c]);
-                                   }
-                                 }
-                               });
+    std::vector<AroundOneLight::Between> here(t.channels.size()), there(here);
+    AlbedoSample a =
+        integrate(incident.first, here.size(), [&](const DirectionPair& p, bool all, Values3& v) {
+          f(p, here);
+          for (std::size_t c = 0; c < here.size(); ++c) v.f[c] = here[c].middle;
+          if (!all) return;
+          for (std::size_t c = 0; c < here.size(); ++c) v.otherwise[c] = v.f[c] - here[c].doubt;
+          v.coarse = v.f;
+          v.apart.assign(here.size(), 0);
+          for (double sign : {-1.0, 1.0}) {
+            of_half[sign > 0](p, there);
+            for (std::size_t c = 0; c < there.size(); ++c) {
+              const double change = there[c].line - here[c].line;
+              if (!std::isfinite(change)) continue;
+              v.coarse[c] += 2 * change;
+              v.apart[c] += sign * change;
+            }
+          }
+        });
     a.phi_i_deg = incident.second;
     double most = 0;
     for (const double v : a.albedo) most = std::max(most, v);

@@ -20,6 +20,32 @@ bool ends_in_zero(double x) {
   return std::fmod(std::round(x), 10) == 0;
 }
 
+/// The step of which all values are whole multiples, as a converter's counts times a factor are; 0 where there is none.
+/// The least gap says how large it is roughly, greater and greater multiples ever more exactly.
+double common_step(std::vector<double> values) {
+  constexpr std::size_t few = 12;        // fewer may meet a step by chance
+  constexpr double of_one_value = 1e-7;  // as far as one number is printed in two ways
+  constexpr double off = 0.02;           // steps
+  std::ranges::sort(values);
+  double step = 0;
+  std::vector<double> distinct;
+  for (const double v : values) {
+    const double gap = distinct.empty() ? v : v - distinct.back();
+    if (gap <= of_one_value * v) continue;
+    step = distinct.empty() ? gap : std::min(step, gap);
+    distinct.push_back(v);
+  }
+  if (distinct.size() < few) return 0;
+  double products = 0, squares = 0;
+  for (const double v : distinct) {
+    const double k = std::round(v / step);
+    if (!(k >= 1) || std::abs(v / step - k) > off) return 0;
+    products += k * v, squares += k * k;
+    step = products / squares;
+  }
+  return step;
+}
+
 }  // namespace
 
 double FileRounding::of(double y) const {
@@ -50,6 +76,12 @@ FileRounding rounding_of(const Table& t) {
   }
   FileRounding r;
   if (seen.empty()) return r;
+  constexpr double coarser = 1.5;
+  if (const double step = common_step(seen);
+      step > (decimals <= most_digits ? coarser * std::pow(10, -decimals) : 0)) {
+    r.absolute = uniform * step;
+    return r;
+  }
   const bool by_decimals = decimals <= most_digits, by_digits = digits <= most_digits;
   const auto zeros = [&](const auto& places) {
     return std::ranges::count_if(seen, [&](double v) { return ends_in_zero(places(v)); });

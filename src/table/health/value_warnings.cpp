@@ -27,6 +27,47 @@ void warn_of_dark_channels(const Table& t, std::vector<std::string>& all) {
         fmt::format("no value of channel {} is above 0: nothing is known of it", few_of(dark)));
 }
 
+/// Interfaces reflect a few percent of every colour, and more at grazing light: where one channel holds next to nothing
+/// of the others at each direction, no colour makes it.
+void warn_of_faint_channels(const Table& t, std::vector<std::string>& all) {
+  if (t.values.size() < 2) return;
+  constexpr double faint = 1 / 200.0, most_of_all = 0.99;  // the rest may be noise
+  constexpr std::size_t few = 8, enough = 20'000;
+  const std::size_t step = t.size() / enough + 1;
+  std::vector<double> brightest, second;  // of all channels
+  for (std::size_t i = 0; i < t.size(); i += step) {
+    double first = 0, next = 0;
+    for (const auto& plane : t.values) {
+      const double v = std::fmax(plane[i], 0.0);
+      next = std::max(next, std::min(first, v));
+      first = std::max(first, v);
+    }
+    brightest.push_back(first);
+    second.push_back(next);
+  }
+  std::vector<std::string> names;
+  double most = 0;
+  std::size_t last = 0;
+  for (std::size_t c = 0; c < t.values.size(); ++c) {
+    std::vector<double> parts;
+    for (std::size_t k = 0; k < brightest.size(); ++k) {
+      const double v = t.values[c][k * step], others = v < brightest[k] ? brightest[k] : second[k];
+      if (v > 0 && others > 0) parts.push_back(v / others);
+    }
+    if (parts.size() < few) continue;
+    const double part = quantile(parts, most_of_all);
+    if (part >= faint) continue;
+    names.push_back(t.channels[c]);
+    most = std::max(most, part);
+    last = c;
+  }
+  if (names.empty()) return;
+  all.push_back(
+      fmt::format("channel {} holds at most {:.2g} of the brightest one at any direction: a scale "
+                  "of its own?{}",
+                  few_of(names), most, names.size() == 1 ? without_channel(t, last) : ""));
+}
+
 /// Noise lets neighbours change sides; what was taken off too much does not.
 void warn_of_offset(TableFacts& facts, std::vector<std::string>& all) {
   if (facts.negative_channel() || facts.negative_offset() == 0) return;
@@ -107,6 +148,7 @@ std::vector<ValueWarning> value_warnings(TableFacts& facts) {
   const std::size_t of_unit = texts.size();
   if (!is_told) warn_of_reciprocity(facts, texts);
   warn_of_dark_channels(facts.table(), texts);
+  if (all.empty()) warn_of_faint_channels(facts.table(), texts);  // light has said so otherwise
   warn_of_zeros(facts, texts);
   warn_of_sure_values(facts.table(), texts);
   for (std::size_t k = 0; k < texts.size(); ++k) {

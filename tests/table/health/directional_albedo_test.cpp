@@ -53,16 +53,18 @@ TEST(AlbedoOfATable, IsWithinItsErrorWhereSamplesAreFurtherApartThanTheHighlight
   }
 }
 
-/// The model in rings around the normal, every `step` degrees, with directions every 10° in each; one at the normal, or as many.
+/// The model in rings around the normal, every `step` degrees, with directions every `phi_step` degrees in each; one at the
+/// normal, or as many.
 Table rings_of(const BoundModel& model,
                const std::vector<double>& theta_i_deg,
                double step,
                double first_phi,
-               bool one_at_normal) {
+               bool one_at_normal,
+               double phi_step = 10) {
   DirectionList l;
   for (const double in : theta_i_deg)
     for (double out = 0; out < 88; out += step)
-      for (double phi = first_phi; phi < (out > 0 || !one_at_normal ? 360 : 1); phi += 10) {
+      for (double phi = first_phi; phi < (out > 0 || !one_at_normal ? 360 : 1); phi += phi_step) {
         l.theta_i_deg.push_back(in);
         l.phi_i_deg.push_back(0);
         l.theta_o_deg.push_back(out);
@@ -263,6 +265,23 @@ TEST(AlbedoOfATable, IsWithinItsErrorOfTheModelsOnGridsAndRings) {
     interpolate_utia(utia);
     expect(utia, "utia");
   }
+}
+
+TEST(AlbedoOfATable, IsWithinItsErrorWhereAzimuthsAreFurtherApartThanZenithAngles) {
+  std::size_t known = 0;
+  for (const double alpha : {0.1, 0.15, 0.2, 0.3, 0.5})
+    for (const double kd : {0.02, 0.1, 0.4}) {
+      const BoundModel model = bind_model("lambert+ggx/smith_ggx.correlated/schlick",
+                                          {{"alpha", {alpha}}, {"f0", {0.04}}, {"kd", {kd}}}, 1);
+      for (const auto& [step, phi_step] : {std::pair(2.0, 15.0), {5.0, 15.0}, {5.0, 10.0}})
+        for (const auto& a :
+             directional_albedo(rings_of(model, {0, 30, 60}, step, 0, true, phi_step))) {
+          EXPECT_NEAR(a.albedo[0], albedo_of(model, a.theta_i_deg), 1.15 * a.error)
+              << alpha << " " << kd << " " << step << " × " << phi_step << " " << a.theta_i_deg;
+          ++known;
+        }
+    }
+  EXPECT_GE(known, 100U);
 }
 
 }  // namespace

@@ -36,6 +36,22 @@ TEST(FileRounding, IsThatOfTheDigitsWhereDecimalsWouldHoldAllTooButEndInZeros) {
   EXPECT_NEAR(r.of(0.005), 1e-5 * uniform, 1e-11);
 }
 
+TEST(FileRounding, IsThatOfAConvertersStepWhichIsNoPowerOfTen) {
+  const auto counts = [](double step, double digits) {
+    std::vector<double> values;
+    for (int k = 3; k < 4000; k += 1 + k / 3) {
+      const double v = k * step, place = std::pow(10, digits - std::ceil(std::log10(v)));
+      values.push_back(std::round(v * place) / place);
+      values.push_back(std::round((v + step) * place) / place);
+    }
+    return rounding_of(of(values)).of(1);
+  };
+  EXPECT_NEAR(counts(0.01233, 12), 0.01233 * uniform, 1e-9);
+  EXPECT_NEAR(counts(0.01233, 6), 0.01233 * uniform, 1e-6);
+  EXPECT_NEAR(counts(0.0125, 9), 0.0125 * uniform, 1e-9);
+  EXPECT_NEAR(counts(0.001, 9), 0.001 * uniform, 1e-9);
+}
+
 TEST(FileRounding, OfBinaryNumbersIsThatOfFloatsOrNone) {
   const std::vector<double> doubles{M_PI, M_E, std::sqrt(2.0)};
   EXPECT_EQ(rounding_of(of(doubles)).of(1), 0);

@@ -47,6 +47,27 @@ TEST(ValueWarnings, TellAChannelThatIsNegativeByItselfFromANoiseFloor) {
   EXPECT_GT(noise_floor(dark), 0);
 }
 
+TEST(ValueWarnings, TellAChannelOfAScaleOfItsOwnFromADarkColour) {
+  // A blue whose diffuse light is next to nothing beside the highlight's, and one that was read in
+  // another unit.
+  const auto said = [](double kd, double scale) {
+    Table t = painted(180, kd, 0.1);
+    t.channels = {"r", "g", "b"};
+    const Values red = painted(180, 0.3, 0.1).values[0];
+    t.values = {red, red, t.values[0]};
+    for (double& v : t.values[2]) v *= scale;
+    TableFacts facts(t);
+    std::vector<std::string> texts;
+    for (const auto& w : value_warnings(facts)) texts.push_back(w.text);
+    return says(texts, "channel b holds at most");
+  };
+  EXPECT_FALSE(said(0.3, 1));
+  EXPECT_FALSE(said(1e-4, 1));
+  EXPECT_TRUE(said(0.3, 1e-3));
+  EXPECT_TRUE(said(0.3, 3e-3));
+  EXPECT_FALSE(said(0.3, 0.02));
+}
+
 TEST(Uncertainties, FarBelowTheOthersAreNamed) {
   Table t = painted(360);
   const auto said = [&] {
