@@ -187,7 +187,10 @@ void print(const ModelChoice& choice, const Advice& advice) {
   if (!advice.recommended.empty()) {
     if (advice.none_fits) say("no model fits\n");
     say_below(advice.none_fits ? "nearest " : "take    ", advice.recommended);
-    say_below("because ", within_sentence(advice.reason));
+    if (advice.none_fits)
+      say_below("", advice.reason);
+    else
+      say_below("because ", within_sentence(advice.reason));
     for (const auto& b : advice.beware) say_below("beware  ", b);
     for (const auto& m : advice.as_good) say_below("as good ", m);
     for (const auto& d : advice.disagreement) say_below("but     ", d);

@@ -164,9 +164,10 @@ std::vector<std::string> gltf_lost(const BoundModel& fit,
   if (has("clearcoat"))
     all.emplace_back("The sum of two lobes: glTF's coat takes light from what is below it.");
   if (keeps_diffuse_whole(fit, s))
-    all.emplace_back(parameter_in(p, "metallic") < 1
-                         ? "Diffuse light beside the highlight: glTF multiplies it by 1 − F."
-                         : "Diffuse light beside the highlight: a metal of glTF has none.");
+    all.emplace_back(
+        parameter_in(p, "metallic") < 1
+            ? "The plain sum of diffuse light and highlight: glTF multiplies the diffuse by 1 − F."
+            : "Diffuse light: a metal of glTF has none.");
   if (s.lobes.empty()) all.emplace_back("A surface without a highlight: glTF reflects 4 %.");
   if (fit.model.anisotropic && !has("anisotropy"))
     all.emplace_back("Anisotropy: glTF's material without extensions has one roughness.");

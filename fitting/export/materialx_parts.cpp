@@ -34,8 +34,8 @@ std::vector<std::string> lost_in_layers(const BoundModel& fit,
   if (fit.model.anisotropic)
     all.emplace_back("The masking's direction: " + whose + " is that of one mean width.");
   if (s.largest_kd() > 0 && !s.lobes.empty())
-    all.emplace_back("Diffuse light beside the highlight: " + whose +
-                     " is what the highlight's albedo leaves.");
+    all.emplace_back("The plain sum of diffuse light and highlight: " + whose +
+                     " diffuse is what the highlight's albedo leaves.");
   if (!s.lobes.empty())
     all.emplace_back("Light lost between facets: " + whose + " highlight has it back.");
   return all;

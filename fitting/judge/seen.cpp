@@ -70,7 +70,7 @@ void keep_to_highlights(TableFacts& facts,
   u[i].keep_limit(
       upper_limit, std::max(peak->alpha, met),
       misfit.told && value > peak->alpha
-          ? fmt::format("the table's highlight is narrower than the fitted alpha, {:.3g}, "
+          ? fmt::format("the table's highlight is narrower than the fitted one (alpha {:.3g}), "
                         "so the model misses it",
                         value)
           : "the samples do not resolve the highlight");

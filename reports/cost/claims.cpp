@@ -32,7 +32,7 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
   if (!schlick || !joint || !plain) return;
   const bool more = schlick->time.ns > joint->time.ns;
   const auto words = [&](const CostRow& other) {
-    return is_tie(*schlick, other)            ? "as long, as far as measured, as"
+    return is_tie(*schlick, other)            ? "about as long as"
            : schlick->time.ns > other.time.ns ? "longer than"
                                               : "less than";
   };
@@ -74,8 +74,8 @@ void pow5(Findings& to, const CostRows& r) {
       verdict(ratio > 1 && !is_tie({by_pow->time}, {by_hand->time})),
       fmt::format("pow {}, Pow5 {}", ns(by_pow->time), ns(by_hand->time)),
       fmt::format(
-          "in a loop that the compiler makes vectors of where it can, pow takes {:.1f} times as "
-          "long. Their values differ only by rounding.",
+          "in a loop that the compiler vectorises where it can, pow takes {:.1f} times as long. "
+          "Their values differ only by rounding.",
           ratio));
 }
 

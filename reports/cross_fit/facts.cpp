@@ -19,8 +19,8 @@ Facts facts(const CrossFitRows& r) {
   for (const auto& p : r.published)
     if (p.gamma_determined) gamma.push_back(p.gamma);
   if (gamma.empty()) return f;
-  const auto longer = std::ranges::count_if(r.published, [](const auto& p) { return p.tail < 2; });
-  f.tails = Facts::Tails{r.published.size(), static_cast<std::size_t>(longer), median(gamma),
+  const auto longer = std::ranges::count_if(gamma, [](double g) { return g < 2; });
+  f.tails = Facts::Tails{gamma.size(), static_cast<std::size_t>(longer), median(gamma),
                          middle(&PublishedFit::ggx_log_rms), middle(&PublishedFit::gtr_log_rms)};
   return f;
 }

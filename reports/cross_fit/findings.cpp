@@ -264,7 +264,7 @@ void published(Findings& to, const CrossFitRows& r) {
   to.judge(
       "for many materials even GGX's tail is not long enough", "",
       verdict(2 * longer > tails.size(), longer > 0),
-      fmt::format("{} measured materials", of_all(longer, tails.size())),
+      fmt::format("{} by their published exponents", of_all(longer, tails.size())),
       fmt::format("Löw and others fitted measured materials of MERL. Their exponent falls off more "
                   "slowly than GGX's for {} materials.",
                   of_all(longer, tails.size())));

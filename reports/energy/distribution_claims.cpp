@@ -57,11 +57,12 @@ void phong_is_beckmann(Findings& to, const EnergyRows& r) {
       "Phong and Beckmann are equivalent by the exponent 2α⁻² − 2",
       "the exponent that Walter et al. 2007 recommend",
       verdict(rough.share < 0.01, smooth.share < 0.01),
-      fmt::format("{} of the facets lie elsewhere at roughness {:g}", percent(rough.share, 2),
-                  rough.roughness),
-      fmt::format("at roughness {:g} the two put {} of the facets' area at different angles. The "
-                  "rougher the surface, the more it is.",
-                  smooth.roughness, percent(smooth.share, 2)));
+      fmt::format("{} of the facets' projected area lies elsewhere at roughness {:g}",
+                  percent(rough.share, 2), rough.roughness),
+      fmt::format(
+          "at roughness {:g} the two put {} of the facets' projected area at different angles. The "
+          "rougher the surface, the more it is.",
+          smooth.roughness, percent(smooth.share, 2)));
 }
 
 void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {

@@ -264,13 +264,15 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
   }
   to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
            fmt::format("{} forms exceed it", of_all(makers, makes.size())),
-           fmt::format("{} forms reflect more light than arrives, at some roughness and "
-                       "angle. A form with several tails counts once.{} The others {}.",
-                       of_all(makers, makes.size()), words,
-                       largest > 1
-                           ? fmt::format("exceed it by {} at most, within their integral's error",
-                                         percent_at_most(std::max(largest - 1, 1e-6)))
-                           : fmt::format("reflect {} of it at most", rounded_up(largest, 4))));
+           fmt::format(
+               "{} forms reflect more light than arrives, at some roughness and "
+               "angle. A form with several tails counts once.{} {} {}.",
+               of_all(makers, makes.size()), words,
+               makers == 0 ? "They all" : fmt::format("The other {}", makes.size() - makers),
+               largest > 1
+                   ? fmt::format("reflect {} more than that at most, within their integral's error",
+                                 percent_at_most(std::max(largest - 1, 1e-6)))
+                   : fmt::format("reflect {} of it at most", rounded_up(largest, 4))));
 }
 
 void energy_does_not_stay(Findings& to, const EnergyRows& r) {
@@ -313,10 +315,10 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
   const auto& most = *std::ranges::max_element(r.claims.clamped, {}, &ClaimRows::Clamped::lost);
   to.judge(
       "the mobile form's clamp of D at 2048 hardly shows", "", verdict_on_small(most.lost),
-      fmt::format("{} of the highlight is lost at roughness {:g}, more below it",
-                  percent(most.lost), most.roughness),
+      fmt::format("{} of the highlight is lost at roughness {:g}", percent(most.lost),
+                  most.roughness),
       fmt::format("it is reached only below roughness {:.3f}. Seen head on, it takes {} of the "
-                  "highlight's light at roughness {:g}, the smoothest looked at.",
+                  "highlight's light at roughness {:g}.",
                   reached, percent(most.lost), most.roughness));
 }
 
@@ -350,8 +352,8 @@ void solid_angle_of_half(Findings& to, const EnergyRows& r) {
   const auto& [pairs, step, off] = *r.claims.half_angle;
   to.judge("dωₕ = dωₗ/(4 VoH)", "", verdict(off < 1e-5),
            fmt::format("equal to {:.0f} digits", -std::log10(std::max(off, 1e-15))),
-           fmt::format("for {} pairs of directions, by small differences, the solid angle of the "
-                       "half vector agrees{}.",
+           fmt::format("finite differences at {} pairs of directions give the same ratio of solid "
+                       "angles{}.",
                        pairs, off < 1e-6 ? "" : fmt::format(" to a share of {:.6f}", off)));
 }
 

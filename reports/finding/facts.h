@@ -89,7 +89,8 @@ struct Facts {
   /// Measured materials by the tail of their highlight, (1 + …)^−γ, as others published it, each fitted with GGX and with GTR, either
   /// with its own height-correlated Smith.
   struct Tails {
-    std::size_t materials, longer;    ///< longer: γ below 2, which is GGX's
+    std::size_t determined,
+        longer;  ///< materials that determine γ, and those of them with one below 2, which is GGX's
     double gamma;                     ///< that GTR finds, median of those that it determines
     double ggx_log_rms, gtr_log_rms;  ///< RMS of ln f that the fits leave, medians
   };

@@ -132,9 +132,9 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
        fmt::format(
-           "the median of the published fits to measured materials is off by {} ({} of them have a "
-           "longer tail)",
-           factor(t.ggx_log_rms), of_all(t.longer, t.materials)),
+           "GGX is off from published fits of measured materials by {} (the median; {} that "
+           "determine gamma have a longer tail)",
+           factor(t.ggx_log_rms), of_all(t.longer, t.determined)),
        std::string(no_more),
        fmt::format("you fit gamma, too (median {:.2g} where the fit determines it): then GTR with "
                    "its own Smith, "
@@ -354,11 +354,12 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
         all.push_back({c.id, pays->both(), c.ns, c.spread});
   const auto* taken = choose(all, single, side_by_side);
   const auto* other = nearest_cheaper(all, *taken);
-  auto unless = fmt::format("F0 is {:g}: then one bounce, {}", plastic,
+  auto unless = fmt::format("the surface is no metal (F0 {:g}): then one bounce, {}", plastic,
                             delta_at_most(std::ranges::max(of_plastic->delta_e)));
   if (const auto* way = scattering_of(f, taken->form, plastic, of_image_light))
     if (const auto pays = compensated(*way, *of_plastic))
-      unless = fmt::format("F0 is {:g}: then from roughness {:g} on", plastic, pays->from);
+      unless = fmt::format("the surface is no metal (F0 {:g}): then from roughness {:g} on",
+                           plastic, pays->from);
   if (other && other->form != single)
     unless += fmt::format("; time is short: then {}, {}", name_of_form(other->form),
                           delta_at_most(other->error));
@@ -376,11 +377,12 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), pays.from);
     d.error = delta_at_most(pays.error);
     if (pays.below > pays.error)
-      d.error += fmt::format("; one bounce, below it, {}", at_most(pays.below));
-    d.error +=
-        fmt::format(" ({}one bounce at all roughnesses: {})",
-                    taken->error > side_by_side ? "no other form leaves less this way; " : "",
-                    at_most(without));
+      d.error += fmt::format("; below that roughness, with one bounce, {}", at_most(pays.below));
+    d.error += fmt::format(" ({}one bounce at all roughnesses: {})",
+                           taken->error > side_by_side && all.size() > 2
+                               ? "no other form with one bounce below leaves less; "
+                               : "",
+                           at_most(without));
     d.unless += nearer_below(f, f0, of_image_light, pays);
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
@@ -482,20 +484,20 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                   "none (half keeps its digits from no α on)", "", ""});
     return;
   }
-  to.push_back(
-      {"Precision: D V F NoL of GGX in half",
-       fmt::format("|n × h|², α clamped at {}", rounded_up(*half->safe_from)), "ndf.ggx",
-       fmt::format(
-           "≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}°, cosines in half, too ("
-           "a search found no larger error, which is no proof)",
-           percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
-       fmt::format("surfaces below roughness {0} look like {0}",
-                   rounded_up(std::sqrt(*half->safe_from))),
-       fmt::format("only D is in half: then α clamped at {}{}", rounded_up(*own->safe_from),
-                   kept && kept->safe_from
-                       ? fmt::format(", or at {} where the processor keeps subnormals",
-                                     rounded_up(*kept->safe_from))
-                       : "")});
+  to.push_back({"Precision: D V F NoL of GGX in half",
+                fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
+                "ndf.ggx",
+                fmt::format("≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}°, with "
+                            "the cosines in half as well ("
+                            "a search found no larger error, which is no proof)",
+                            percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
+                fmt::format("surfaces below roughness {0} look like {0}",
+                            rounded_up(std::sqrt(*half->safe_from))),
+                fmt::format("only D is in half: then α at least {}{}", rounded_up(*own->safe_from),
+                            kept && kept->safe_from
+                                ? fmt::format(", or at {} where the processor keeps subnormals",
+                                              rounded_up(*kept->safe_from))
+                                : "")});
 }
 
 }  // namespace

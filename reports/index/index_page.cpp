@@ -183,8 +183,17 @@ namespace {
 std::string page_of(std::string_view report, std::string_view anchor = "") {
   return fmt::format("{}.html{}{}", report, anchor.empty() ? "" : "#", anchor);
 }
+/// The text, in which no line ends between a number and what it is of.
+std::string unbroken(std::string text) {
+  for (const auto& [apart, together] :
+       {std::pair("≤ ", "≤\u00a0"), {"F0 ", "F0\u00a0"}, {" ns", "\u00a0ns"}})
+    for (std::size_t at = 0; (at = text.find(apart, at)) != std::string::npos;)
+      text.replace(at, std::string_view(apart).size(), together);
+  return text;
+}
 /// A cell whose aside stands small below it.
-Cell with_aside(const std::string& text, std::string look = {}, std::string title = {}) {
+Cell with_aside(const std::string& broken, std::string look = {}, std::string title = {}) {
+  const auto text = unbroken(broken);
   const auto main = without_aside(text);
   return {
       main, std::move(title),
@@ -223,8 +232,8 @@ Part lead(const ReportIndex& i) {
 Section what_to_ship(const ReportIndex& i) {
   Table t{columns("for|take|error left|costs|unless"), {}, "told-by-cell decide"};
   for (const auto& d : decisions(i.facts))
-    t.add(with_aside(d.subject), Cell{d.take, d.take_id, "", "take"}, with_aside(d.error),
-          with_aside(d.cost), d.unless.empty() ? "–" : d.unless);
+    t.add(with_aside(d.subject), Cell{unbroken(d.take), d.take_id, "", "take"}, with_aside(d.error),
+          with_aside(d.cost), d.unless.empty() ? "–" : unbroken(d.unless));
   if (t.rows.empty()) return {};
   return {"Decide", "", {t}};
 }
@@ -263,8 +272,8 @@ Section fresnel(const ReportIndex& i) {
            plain(just_seen), plain(side_by_side))},
        Prose{fmt::format("ΔE2000 is scaled so that nobody sees a difference of {0} or less "
                          "(CIE 142-2001). Up to {1} a difference is seen only side by side: "
-                         "observers could just see that in CIELAB (Mahy, Van Eycken and "
-                         "Oosterlinck 1994).",
+                         "that is the difference which observers could just see in CIELAB (Mahy, "
+                         "Van Eycken and Oosterlinck 1994).",
                          plain(just_seen), plain(side_by_side)),
              "small muted"}},
       "fresnel"};
@@ -303,8 +312,8 @@ Section claims(const ReportIndex& i) {
   if (rows.empty()) return {};
   return {
       "Claims",
-      "Claims in circulation among people who write shaders, in their own words. A click on one "
-      "shows the figures behind its verdict, and where it was published, if it was.",
+      "Claims in circulation among people who write shaders. A click on one shows the figures "
+      "behind its verdict, and where it was published, if it was.",
       {Markup{
           R"(<div class="told-by-cell said"><table><thead><tr><th>verdict</th><th>claim</th><th>figure</th></tr></thead><tbody>)" +
           rows + "</tbody></table></div>"}}};
@@ -364,15 +373,17 @@ std::string index_page_html(const ReportIndex& i) {
             "over both cosines from 0.05 to 1 and over roughness.",
             "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on. For image-based "
             "light the reference is transport between the facets under even light. For single "
-            "lights it is random walks, whose error is included, on a ball lit from 30° and from "
+            "lights it is random walks, whose error is added, on a ball lit from 30° and from "
             "120° to the view.",
             "Multiple scattering is compensated only where the missing light is seen, and where "
             "compensation lowers ΔE2000 by 1 or more.",
             "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
-            "A cost is the median difference within a process.",
+            "Two forms are timed in the same process, and a cost is their difference.",
             "Times are medians over several processes on this machine. A difference counts only "
             "if every process measured it, and it was always larger than the spread and than 3 % "
             "of the time taken.",
+            "Under image-based light only Fdez-Agüera's compensation is compared: it needs no more "
+            "than the split sum's table.",
             "Compensations are timed in one process, one light and view at a time."}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;

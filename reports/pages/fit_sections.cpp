@@ -239,8 +239,9 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   if (!ratios.empty()) {
     const auto [low, high] = std::ranges::minmax(ratios);
     const auto a = plain(low, 2), b = plain(high, 2);
-    words += fmt::format(" At the table's samples, the model's peak is {}{} times the table's{}.",
-                         a == b ? "" : a + " to ", b, a == b ? "" : " (by channel)");
+    words += fmt::format(
+        " At the table's samples, the model's greatest value is {}{} times the table's{}.",
+        a == b ? "" : a + " to ", b, a == b ? "" : " (by channel)");
   }
   const Shown picture{f.family, {}, 260};
   pictures.figures.push_back(std::move(f));

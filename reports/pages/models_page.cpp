@@ -347,6 +347,13 @@ std::vector<Part> ModelsSections::verdict() const {
   return out;
 }
 
+/// Why a model was not compared, where its id has just been written.
+std::string note_of(const ModelRow& r) {
+  const auto named = fmt::format("model '{}' is", r.model);
+  return r.note.starts_with(named) ? " is" + r.note.substr(named.size()) + "."
+                                   : ": " + r.note + ".";
+}
+
 Section ModelsSections::models() const {
   const bool sphere = std::ranges::any_of(
       compared_, [](const NamedModel& m) { return std::isfinite(m.row.delta_e_2000); });
@@ -367,7 +374,7 @@ Section ModelsSections::models() const {
                           ? advice_.none_fits ? "\u2002**nearest**" : "\u2002**recommended**"
                       : as_good(m) ? "\u2002as good"
                                    : ""),
-          "", fmt::format("`{}`{}", r.model, r.note.empty() ? "" : " " + capital(r.note) + "."));
+          "", fmt::format("`{}`{}", r.model, r.note.empty() ? "" : note_of(r)));
       const auto number = [&](double x, const std::string& text) {
         row.emplace_back(std::isfinite(x) ? text : "–");
       };
@@ -379,7 +386,8 @@ Section ModelsSections::models() const {
       if (sphere) number(r.delta_e_2000, delta_e_text(r.delta_e_2000));
       number(r.ns, significant(r.ns, 2));
       row.emplace_back(m.number ? fmt::to_string(r.parameters) : "–");
-      row.emplace_back(r.parameters_at_bound.empty()
+      row.emplace_back(m.number == 0 ? "–"
+                       : r.parameters_at_bound.empty()
                            ? "none"
                            : fmt::to_string(fmt::join(r.parameters_at_bound, ", ")));
     }
@@ -401,7 +409,7 @@ Section ModelsSections::curves(Pictures& pictures) const {
   out.text =
       "Points are the table's samples, lines the fitted models by their numbers, without the "
       "cosine. A "
-      "line that leaves the picture goes on beyond what the table has.";
+      "line leaves the picture where its model is far above or below the table.";
   Choice c;
   c.controls = {{"scale", "Scale of f_r", "logarithmic"}, {"channel", "Channel", channels[0]}};
   c.look = "";
@@ -475,16 +483,17 @@ std::string ModelsSections::html() {
       {Pairs{{{"file", "`" + table_.path + "`"},
               {"SHA-256", "`" + table_.sha256 + "`"},
               {"format", table_.format},
+              {"mask", table_.mask.empty() ? "" : "`" + table_.mask + "`"},
               {"metric of the fits", words(table_.metric)},
               {"held out in turn",
                predicted_ ? many(choice_.blocks, "block") + " of neighbouring incident angles"
                           : "nothing: the table has too few incident angles"},
               {"values", std::isfinite(choice_.effective_values)
-                             ? fmt::format("worth {} independent ones, which AIC and BIC count",
+                             ? fmt::format("as much as {} independent ones, which BIC counts",
                                            count_text(static_cast<std::size_t>(
                                                std::lround(choice_.effective_values))))
                              : ""},
-              {"one fit of it",
+              {"to fit it alone",
                compared_.empty()
                    ? ""
                    : fmt::format("`gonio fit {} --model {}{} -o fit.json --html fit.html`",
@@ -498,17 +507,17 @@ std::string ModelsSections::html() {
       "What the words mean",
       "",
       {Pairs{
-          {{"log RMS",
-            fmt::format("typical size of ln f − ln y, model over table: 0.1 is a factor of 1.1. {}",
-                        floor_in_words(choice_))},
-           {"free", "values that were fitted, those of each channel counted"},
+          {{"log RMS", fmt::format("typical size of ln(model ÷ table): 0.1 is a factor of 1.1. {}",
+                                   floor_in_words(choice_))},
+           {"free", "parameters that were fitted, counted per channel"},
            {"unseen",
             "log RMS on incident angles that were held out of the fit. It grows where a model has "
             "more parameters than the table can determine"},
            {"as good",
-            "close to the best model by both. Unseen: at most 5 % above, or what chance adds where "
-            "values are few, and within its error over the blocks; 0.1 % above always counts. BIC: "
-            "at most 10 above"},
+            "said of a model whose `unseen` is at most 5 % above the best (more where values are "
+            "few) and within its error over the blocks, or at most 0.1 % above, and whose BIC is "
+            "at "
+            "most 10 above the least"},
            {"BIC",
             "judges the fit to the whole table, and penalises each free value; less is better, and "
             "only differences count"},
@@ -517,10 +526,12 @@ std::string ModelsSections::html() {
             "pixels are within it, averaged over three lights. Above 1 it is seen side by side"},
            {"time", "that one sample takes in all channels, in float, on this machine"},
            {"at the end of its range",
-            "a parameter that the data push beyond what it may be: the model lacks something"},
+            "said of a parameter that the data push beyond what it may be: the model lacks "
+            "something"},
            {"front",
-            "models that no other beats in both speed and nearness; times that vary more than they "
-            "differ are equal"}}}},
+            "models that no other beats in both speed and nearness; two times count as equal if "
+            "they "
+            "vary by more than their difference"}}}},
       "words"};
   out.sections = {std::move(front), models(),
                   std::move(drawn), spheres_section(spheres(), "", at_once),

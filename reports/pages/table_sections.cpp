@@ -295,14 +295,14 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
                           ? significant(h.noise_floor) + " 1/sr, from the negative values"
                           : "none estimated: too few negative values");
   if (h.reciprocity_error)
-    fact("reciprocity", fmt::format("{}: median change when light and view are exchanged{}{}",
+    fact("reciprocity", fmt::format("{}: change when light and view are exchanged{}{}",
                                     percent(*h.reciprocity_error),
                                     h.reciprocity_note.empty() ? "" : "; ", h.reciprocity_note));
   else
     fact("reciprocity",
          h.reciprocity_note.empty() ? "cannot be checked in this layout" : h.reciprocity_note);
   fact("noise", noise_words(h.noise));
-  fact("peak", h.peak ? fmt::format("{}; height {}, base {} 1/sr", peak_in_words(*h.peak),
+  fact("peak", h.peak ? fmt::format("{}; height {} 1/sr over a base of {}", peak_in_words(*h.peak),
                                     significant(h.peak->height), significant(h.peak->base))
                : h.peak_profiles == 0
                    ? "none found: too few samples near the half vector"

@@ -135,7 +135,7 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", half.value, half.smith, half.nov),
            fmt::format("at NoV {:g} and roughness {:g} it lets through {} than exact Smith.",
                        half.nov, half.roughness, beside(half.value / half.smith)));
-  to.judge("with k = (r+1)²/8 the edge is 72 % darker, as of a medium roughness", "",
+  to.judge("with k = (r+1)²/8 the edge is 72 % darker, like that of a medium roughness", "",
            verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith),
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", remapped.value, remapped.smith,
                        remapped.nov),

@@ -96,7 +96,7 @@ void savings(Findings& to, const ScenesRows& r) {
       save, up_to,
       slower.empty()
           ? ""
-          : fmt::format(" In {} of them the plan takes at least a tenth longer.", slower.size()));
+          : fmt::format(" In {} others the plan takes at least a tenth longer.", slower.size()));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

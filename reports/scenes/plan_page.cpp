@@ -282,7 +282,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
                 "Checked on {} fresh points: less than {} of all exceed the limit, with a "
                 "confidence of {} over the points. Two standard errors of the reference are in "
                 "each difference.{}",
-                count_text(c.samples), percent_at_most(c.bound),
+                count_text(c.samples), rounded_up(100 * c.bound, 3) + "\u202f%",
                 percent_given(p.tolerance.confidence), failed)
           : fmt::format("Checked on {} fresh points beside {}. No walk is known of this lobe, so "
                         "nothing is claimed beyond these points.{}",
@@ -366,7 +366,7 @@ std::string exceeded(const scene::Judgement& j, const scene::Margin& margin, boo
   return bounded ? fmt::format(
                        "may exceed the limit at {} % of all points, and {} % is allowed, so "
                        "that a verification on other points agrees",
-                       rounded_up(100 * j.bound), rounded_down(100 * margin.most_exceeding))
+                       rounded_up(100 * j.bound, 3), rounded_down(100 * margin.most_exceeding, 3))
                  : "exceeds the limit at too many points";
 }
 
@@ -451,7 +451,7 @@ std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
                : fmt::format("A plan holds with a margin, so that a verification on other points "
                              "agrees: at most {} % may exceed the limit, and the worst may differ "
                              "by {}. ",
-                             rounded_down(100 * p.materials[0].margin.most_exceeding),
+                             rounded_down(100 * p.materials[0].margin.most_exceeding, 3),
                              rounded_down(p.materials[0].margin.most_worst))),
        {t}},
       spheres(s, p)};

@@ -205,7 +205,7 @@ Prospect intervals(const Table& t) {
       : n >= 2 ? weakly
                : no,
       fmt::format("{}; an error common to all values of one angle is hard to estimate with fewer "
-                  "than 8 angles, or fewer than two for each free parameter",
+                  "than 8 angles, or fewer than two angles for each free parameter",
                   counted(n, "incident angle"))};
 }
 

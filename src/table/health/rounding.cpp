@@ -23,7 +23,7 @@ bool ends_in_zero(double x) {
 /// The step of which all values are whole multiples, as a converter's counts times a factor are; 0 where there is none.
 /// The least gap says how large it is roughly, greater and greater multiples ever more exactly.
 double common_step(std::vector<double> values) {
-  constexpr std::size_t few = 12;        // fewer may meet a step by chance
+  constexpr std::size_t fewest = 12;     // fewer may meet a step by chance
   constexpr double of_one_value = 1e-7;  // as far as one number is printed in two ways
   constexpr double off = 0.02;           // steps
   std::ranges::sort(values);
@@ -35,7 +35,7 @@ double common_step(std::vector<double> values) {
     step = distinct.empty() ? gap : std::min(step, gap);
     distinct.push_back(v);
   }
-  if (distinct.size() < few) return 0;
+  if (distinct.size() < fewest) return 0;
   double products = 0, squares = 0;
   for (const double v : distinct) {
     const double k = std::round(v / step);
@@ -77,9 +77,9 @@ FileRounding rounding_of(const Table& t) {
   FileRounding r;
   if (seen.empty()) return r;
   constexpr double coarser = 1.5;
-  if (const double step = common_step(seen);
-      step > (decimals <= most_digits ? coarser * std::pow(10, -decimals) : 0)) {
-    r.absolute = uniform * step;
+  if (const double common = common_step(seen);
+      common > (decimals <= most_digits ? coarser * std::pow(10, -decimals) : 0)) {
+    r.absolute = uniform * common;
     return r;
   }
   const bool by_decimals = decimals <= most_digits, by_digits = digits <= most_digits;

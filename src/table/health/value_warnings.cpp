@@ -32,7 +32,7 @@ void warn_of_dark_channels(const Table& t, std::vector<std::string>& all) {
 void warn_of_faint_channels(const Table& t, std::vector<std::string>& all) {
   if (t.values.size() < 2) return;
   constexpr double faint = 1 / 200.0, most_of_all = 0.99;  // the rest may be noise
-  constexpr std::size_t few = 8, enough = 20'000;
+  constexpr std::size_t fewest = 8, enough = 20'000;
   const std::size_t step = t.size() / enough + 1;
   std::vector<double> brightest, second;  // of all channels
   for (std::size_t i = 0; i < t.size(); i += step) {
@@ -54,7 +54,7 @@ void warn_of_faint_channels(const Table& t, std::vector<std::string>& all) {
       const double v = t.values[c][k * step], others = v < brightest[k] ? brightest[k] : second[k];
       if (v > 0 && others > 0) parts.push_back(v / others);
     }
-    if (parts.size() < few) continue;
+    if (parts.size() < fewest) continue;
     const double part = quantile(parts, most_of_all);
     if (part >= faint) continue;
     names.push_back(t.channels[c]);

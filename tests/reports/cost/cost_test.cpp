@@ -481,14 +481,13 @@ TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNoMore) {
   for (auto& s : rows.switches) s.differs = true, s.ns = s.memory == "cache" ? 0.234 : -0.05;
   const auto said = findings(rows);
   EXPECT_EQ(said.sentences[0], said.headline) << "before it tells of other programs";
-  EXPECT_NE(
-      said.headline.find(
-          " 0.23 ns more in cache. A whole GGX model with it costs no more, if it reads columns"),
-      std::string::npos)
+  EXPECT_NE(said.headline.find(" 0.23 ns more in cache. A whole GGX model with it costs no more "
+                               "where it reads its inputs"),
+            std::string::npos)
       << said.headline;
   for (auto& s : rows.switches)
     if (s.memory != "cache") s.differs = false, s.ns = -0.01, s.ns_spread = 0.25;
-  EXPECT_NE(findings(rows).headline.find("costs at most 0.26 ns more, if it reads columns"),
+  EXPECT_NE(findings(rows).headline.find("costs at most 0.25 ns more where it reads its inputs"),
             std::string::npos)
       << "what its spread may hide: " << findings(rows).headline;
 }

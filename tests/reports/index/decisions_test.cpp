@@ -68,7 +68,7 @@ Facts made_facts() {
     f.in_cache.push_back({id, ns, 0.01});
   f.whole = {{"ggx/smith_ggx.correlated/schlick", 0.2, 0.01},
              {"gtr/smith_gtr.correlated/schlick", 1.0, 0.01}};
-  f.tails = Facts::Tails{20, 17, 1.4, std::log(1.5), std::log(1.2)};
+  f.tails = Facts::Tails{14, 9, 1.4, std::log(1.5), std::log(1.2)};
   f.diffuse = {{"diffuse.lambert", 1, false, 1.91, 14, 9.0},
                {"diffuse.lambert.coupled", 0.95, true, 1.5, {}, 5.0},
                {"diffuse.disney", 1.52, true, 2.1, {}, 6.0},
@@ -145,15 +145,15 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   EXPECT_EQ(bounces.subject, "Multiple scattering under single lights, F0 0.9 (bright metal)");
   EXPECT_EQ(bounces.take, "Turquin, from roughness 0.4 on");
   EXPECT_EQ(bounces.error, "ΔE ≤ 1.9 (one bounce at all roughnesses: ≤ 18)");
-  EXPECT_EQ(bounces.unless, "F0 is 0.04: then one bounce, ΔE ≤ 1.9");
+  EXPECT_EQ(bounces.unless, "the surface is no metal (F0 0.04): then one bounce, ΔE ≤ 1.9");
   EXPECT_EQ(bounces.cost,
             "12 ns instead of 4.1 ns, one call at a time (not comparable with other rows)");
   EXPECT_EQ(about(all, "Multiple scattering under image-based light").take_id,
             "scattering.fdez_aguera");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").cost, "none (the usual form)");
   const auto& bits = about(all, "Precision: D V F NoL of GGX in half");
-  EXPECT_EQ(bits.take, "|n × h|², α clamped at 0.037");
-  EXPECT_EQ(bits.unless, "only D is in half: then α clamped at 0.004");
+  EXPECT_EQ(bits.take, "sin² θ_h from |n × h|², α at least 0.037");
+  EXPECT_EQ(bits.unless, "only D is in half: then α at least 0.004");
 }
 
 TEST(Decisions, NameBesideAPhotographNoFormThatShowsThere) {
@@ -171,10 +171,10 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto& tails = about(all, "Distribution");
   EXPECT_EQ(tails.take_id, "ndf.ggx");
   EXPECT_EQ(tails.error,
-            "the median of the published fits to measured materials is off by ×/÷ 1.5 (17 of 20 of "
-            "them have a longer tail)");
+            "GGX is off from published fits of measured materials by ×/÷ 1.5 (the median; 9 of 14 "
+            "that determine gamma have a longer tail)");
   EXPECT_EQ(without_aside(tails.error),
-            "the median of the published fits to measured materials is off by ×/÷ 1.5");
+            "GGX is off from published fits of measured materials by ×/÷ 1.5");
   EXPECT_EQ(tails.unless,
             "you fit gamma, too (median 1.4 where the fit determines it): then GTR with its own "
             "Smith, typically "
@@ -231,7 +231,8 @@ TEST(Decisions, ChangeWhereAThresholdIsCrossed) {
   auto bounces = about(decisions(f), "Multiple scattering");
   EXPECT_EQ(bounces.take, "Kulla and Conty, from roughness 0.4 on");
   EXPECT_EQ(bounces.unless,
-            "F0 is 0.04: then one bounce, ΔE ≤ 1.9; time is short: then Turquin, ΔE ≤ 2.4");
+            "the surface is no metal (F0 0.04): then one bounce, ΔE ≤ 1.9; time is short: then "
+            "Turquin, ΔE ≤ 2.4");
   for (auto& s : f.scattering)
     if (s.id == "kulla_conty") s.delta_e[1] = 2.6;  // further off than nothing up to there
   bounces = about(decisions(f), "Multiple scattering");

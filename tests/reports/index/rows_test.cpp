@@ -83,11 +83,14 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
   EXPECT_EQ(
       row.error,
-      fmt::format("{}{} (no other form leaves less this way; one bounce at all roughnesses: {})",
-                  up_to(kulla), below > kulla ? "; one bounce, below it, " + at_most(below) : "",
+      fmt::format("{}{} (no other form with one bounce below leaves less; one bounce at all "
+                  "roughnesses: {})",
+                  up_to(kulla),
+                  below > kulla ? "; below that roughness, with one bounce, " + at_most(below) : "",
                   at_most(nothing)));
   EXPECT_NE(below, kulla);
-  EXPECT_NE(row.unless.find("F0 is 0.04: then one bounce, ΔE ≤ 1.4"), row.unless.npos)
+  EXPECT_NE(row.unless.find("the surface is no metal (F0 0.04): then one bounce, ΔE ≤ 1.4"),
+            row.unless.npos)
       << row.unless;
   EXPECT_EQ(row.unless.find("one bounce leaves too much"), row.unless.npos)
       << "nothing leaves less there";
@@ -137,7 +140,8 @@ TEST(IndexRow, OfDarkMetalHasItsOwnRoughness) {
   EXPECT_EQ(of(all, lights + "F0 0.9 (bright metal)").take,
             "Kulla and Conty, from roughness 0.25 on");
   EXPECT_EQ(of(all, lights + "F0 0.5 (dark metal)").take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(of(all, lights + "F0 0.5 (dark metal)").unless, "F0 is 0.04: then one bounce, ΔE ≤ 0.3")
+  EXPECT_EQ(of(all, lights + "F0 0.5 (dark metal)").unless,
+            "the surface is no metal (F0 0.04): then one bounce, ΔE ≤ 0.3")
       << "what one bounce lacks at 0.25 is not seen";
 }
 
@@ -157,7 +161,8 @@ TEST(IndexRow, OfPlasticCompensatesNothingThatNobodySees) {
   r.compensations = {c};
   const auto row = of(decisions(facts(r)), "Multiple scattering under single lights");
   EXPECT_EQ(row.take_id, "scattering.kulla_conty");
-  EXPECT_EQ(row.unless, "F0 is 0.04: then one bounce, ΔE ≤ 2.6") << "2.5 with it: nobody sees that";
+  EXPECT_EQ(row.unless, "the surface is no metal (F0 0.04): then one bounce, ΔE ≤ 2.6")
+      << "2.5 with it: nobody sees that";
 }
 
 TEST(IndexRow, OfTheSplitSumSaysWhatMostOfASphereShows) {
@@ -263,12 +268,10 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   auto all = facts(r);
   join(all, facts(timed({"ggx/smith_ggx.correlated/schlick", "gtr/smith_gtr.correlated/schlick"})));
   const auto row = of(decisions(all), "Distribution");
-  EXPECT_EQ(
-      row.error,
-      fmt::format(
-          "the median of the published fits to measured materials is off by ×/÷ {:.3g} (17 of 20 "
-          "of them have a longer tail)",
-          std::exp(0.395)));  // between the tenth and the eleventh
+  EXPECT_EQ(row.error, fmt::format("GGX is off from published fits of measured materials by ×/÷ "
+                                   "{:.3g} (the median; 10 of 10 "
+                                   "that determine gamma have a longer tail)",
+                                   std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(row.unless,
             fmt::format("you fit gamma, too (median 1.5 where the fit determines it): then GTR "
                         "with its own Smith, typically "
@@ -287,9 +290,10 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   r.rows = {d};
   r.highlights = {{"ggx/smith_ggx.correlated/schlick", "half", 88, 0.5, 0.022, 0.0371, 0.0315}};
   const auto row = of(decisions(facts(r)), "Precision");
-  EXPECT_EQ(row.take, "|n × h|², α clamped at 0.038") << "at 0.037 it is not kept";
+  EXPECT_EQ(row.take, "sin² θ_h from |n × h|², α at least 0.038") << "at 0.037 it is not kept";
   EXPECT_EQ(row.error,
-            "≤ 2.2\u00a0% where F0 is 0.5 or more, light and view up to 88°, cosines in half, too "
+            "≤ 2.2\u00a0% where F0 is 0.5 or more, light and view up to 88°, with the cosines in "
+            "half as well "
             "(a search found no "
             "larger error, which is no proof)");
   EXPECT_EQ(row.cost, "surfaces below roughness 0.2 look like 0.2");
