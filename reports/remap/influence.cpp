@@ -30,8 +30,7 @@ void judge_influence_of_masking(Findings& to, const RemapRows& r) {
         beyond = more, roughness = none->at[i].roughness, mu = r.mu[m];
     }
   to.judge(
-      "except at grazing angles and on very rough surfaces, G matters little", "",
-      verdict_on_small(within),
+      "except at grazing angles and high roughness, G matters little", "", verdict_on_small(within),
       fmt::format("up to {} more light without it there", percent_at_most(within)),
       fmt::format("at cosines from {:g} on and roughness up to {:g}, GGX without masking reflects "
                   "up to {} more. At cosine {:g} and roughness {:g} it is {}.",

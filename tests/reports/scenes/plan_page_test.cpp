@@ -177,7 +177,7 @@ TEST(PlanPage, CallsTimesThatAClockCannotTellApartTheSame) {
 TEST(PlanPage, SaysWhichMarginAPlanKeeps) {
   GONIO_MANY_FITS();
   place_of(plan_page_html(plastic_scene(), plan()),
-           "at most 0.75 % may exceed the limit, and the worst may differ by 3.6.");
+           "at most 0.756 % may exceed the limit, and the worst may differ by 3.6.");
 }
 
 TEST(PlanPage, NamesTheCostThatNoSetBeats) {
@@ -291,7 +291,7 @@ TEST(PlanPage, NamesTheNumberByWhichACheaperSetFailed) {
   EXPECT_NE(page.find("failed, worst 4.6"), page.npos);
   m.failed->error.worst = 2, m.failed->error.bound = 0.0121;
   page = plan_page_html(plastic_scene(), p);
-  EXPECT_NE(page.find("may exceed the limit at 1.3 % of all points, and 0.9 % is allowed"),
+  EXPECT_NE(page.find("may exceed the limit at 1.21 % of all points, and 0.9 % is allowed"),
             page.npos);
 }
 
