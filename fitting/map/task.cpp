@@ -62,7 +62,7 @@ std::vector<float> rungs(const ModelParameter& q, const Range& range, std::size_
   if (q.about->name == "alpha_x" || q.about->name == "alpha_y") return between({0.04, 0.15, 0.5});
   if (is_alpha(q.name))
     return lobes > 1 ? between({0.02, 0.08, 0.25, 0.7})
-                     : between({0.01, 0.03, 0.07, 0.14, 0.25, 0.45, 0.8});
+                     : between({0.01, 0.03, 0.07, 0.14, 0.25, 0.45, 0.6, 0.8});
   if (lobes == 0) {  // a person's own
     std::vector<float> spread;
     for (const double part : {1.0 / 6, 0.5, 5.0 / 6})
@@ -218,15 +218,26 @@ TexelTask::TexelTask(const TexelOptions& o, std::size_t channels)
                       "fitted at once",
                       count, max_columns - 1));
   }
+  // Seen from above, light that comes back of a dull lobe resembles diffuse light: its valley and a
+  // narrower lobe's lie apart.
+  const auto* width = model().find("alpha");
+  const auto is_dull = [&](const Start& start) {
+    constexpr float dull = 0.5F;
+    return std::ranges::any_of(start, [&](const auto& at) {
+      return width && at.first == width->first && at.second > dull;
+    });
+  };
+  const bool one_lobe = !turns() && model().lobes.size() < 2;
   for (auto& start : starts_of(problem, is_shape)) {
-    const bool alone = !turns() && model().lobes.size() < 2;
     const auto like = [&](const auto& group) {
-      return alone || group.front().back().second == start.back().second;
+      return one_lobe ? o.refine_normals || is_dull(group.front()) == is_dull(start)
+                      : group.front().back().second == start.back().second;
     };
     auto group = start.empty() ? starts.begin() : std::ranges::find_if(starts, like);
     if (group == starts.end()) group = starts.insert(group, std::vector<Start>{});
     group->push_back(std::move(start));
   }
+  has_dull_group = one_lobe && starts.size() == 2;
   is_linear = gonio::is_linear(problem, is_shape);
   while (is_linear && o.metric != Metric::log && unknowns.linear < unknowns.count &&
          unknowns.slot[unknowns.linear] < is_shape.size() &&

@@ -26,7 +26,8 @@ struct TexelTask {
   using Start = std::vector<std::pair<std::size_t, float>>;
   /// Groups of them.  The best of each is a way of its own, where the cost has several valleys: of tangents and of several lobes.
   std::vector<std::vector<Start>> starts;
-  bool is_linear;  ///< f in all that is no shape: that solution is exact
+  bool has_dull_group;  ///< the starts of a single lobe are two groups: dull, and the others
+  bool is_linear;       ///< f in all that is no shape: that solution is exact
 
   const Model& model() const { return problem.start.model; }
   bool turns() const { return model().anisotropic; }

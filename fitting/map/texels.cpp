@@ -51,6 +51,14 @@ class LowestStarts {
     }
   }
   std::vector<std::vector<float>>& starts() { return x_; }
+  /// False of lanes whose second start is so far above where the first led to that its valley cannot be deeper: where that
+  /// led into the wrong one of a dull lobe's two, without noise, the other's start was at most 1.8 times as far off, by its RMS.
+  std::array<bool, padding> second_may_be_deeper(const float* cost) const {
+    constexpr float far = 8;
+    std::array<bool, padding> may{};
+    for (std::size_t l = 0; l < padding; ++l) may[l] = cost_[1][l] < far * cost[l];
+    return may;
+  }
 
  private:
   void put(std::size_t k, std::size_t lane, const std::vector<float>& x, float cost) {
@@ -61,6 +69,19 @@ class LowestStarts {
   std::vector<std::vector<float>> x_;
   std::vector<std::array<float, padding>> cost_;
 };
+
+/// True where the camera stays where it is, as far as the first texel sees.
+bool has_one_view(const TexelSamples& in) {
+  const float least = std::cos(10 * std::numbers::pi_v<float> / 180);
+  const std::size_t stride = in.shared ? 1 : in.texels;
+  const auto view = [&](std::size_t image, std::size_t axis) {
+    return in.view[(3 * image + axis) * stride];
+  };
+  for (std::size_t i = 1; i < in.images; ++i)
+    if (!(view(i, 0) * view(0, 0) + view(i, 1) * view(0, 1) + view(i, 2) * view(0, 2) > least))
+      return false;
+  return in.images > 0;
+}
 
 /// Fits texels, a register full at a time.
 class LaneFit {
@@ -77,7 +98,7 @@ class LaneFit {
   void step(int most);
   void descend(std::size_t count, bool to_the_end);
   void fit(std::span<const std::size_t> texels);
-  void take_lowest(std::vector<float>& lowest);
+  void take_lowest(std::vector<float>& lowest, const std::array<bool, padding>& tries);
   void finish(std::span<const std::size_t> texels);
   void judge_singular(std::size_t lane);
   bool leaves_tilt_open(std::size_t lane) const;
@@ -97,6 +118,7 @@ class LaneFit {
   Column<float> tilt_;
   std::vector<bool> is_middle_;  ///< [slot]: a diffuse term's own, one for all channels
   bool has_middles_ = false;
+  bool seeks_dull_;  ///< a dull lobe's valley is one of its own
 
   // The register on its way.
   Column<float> values_, memory_, inverse_, own_inverse_, left_out_, variance_, freedom_;
@@ -115,7 +137,8 @@ LaneFit::LaneFit(const TexelTask& task,
       kernels_(kernels<float>(instruction_set)),
       lanes_(lane_kernels(instruction_set)),
       passes_(task, kernels_, lanes_),
-      register_(task, in, kernels_, lanes_, passes_.is_fused()) {
+      register_(task, in, kernels_, lanes_, passes_.is_fused()),
+      seeks_dull_(task.has_dull_group && has_one_view(in)) {
   const std::size_t unknowns = std::max<std::size_t>(n(), 1);
   tilt_ = Column<float>(2 * padding);
   is_middle_.resize(task.model().value_count);
@@ -270,7 +293,7 @@ void LaneFit::descend(std::size_t count, bool to_the_end) {
 /// Begins the fit of a register full, up to where one start is left.
 void LaneFit::fit(std::span<const std::size_t> texels) {
   register_.gather(texels);
-  LowestStarts lowest_starts(starts_kept);
+  LowestStarts lowest_starts(task_.has_dull_group && !seeks_dull_ ? 1 : starts_kept);
   auto& begins = lowest_starts.starts();
   std::fill_n(tilt_.data(), 2 * padding, 0.0F);
   for (const auto& group : task_.starts)
@@ -282,6 +305,11 @@ void LaneFit::fit(std::span<const std::size_t> texels) {
   register_.in_logarithms();
   std::vector<float> lowest;
   for (const auto& x : begins) {
+    std::array<bool, padding> tries;
+    tries.fill(true);
+    if (seeks_dull_ && &x == &begins.front() + 1)
+      tries = lowest_starts.second_may_be_deeper(state_.cost);
+    if (std::ranges::count(tries, true) == 0) continue;
     std::ranges::copy(x, state_.x);
     std::ranges::copy(x, state_.tried);
     std::fill_n(state_.cost, padding, std::numeric_limits<float>::infinity());
@@ -290,12 +318,12 @@ void LaneFit::fit(std::span<const std::size_t> texels) {
     steps_.fill(0);
     if (begins.size() == 1) return;
     step(steps_of_each);
-    take_lowest(lowest);
+    take_lowest(lowest, tries);
   }
 }
 
 /// Keeps of each texel the one of two ends whose next step leads lower: that of the state and an earlier one, empty the first time.
-void LaneFit::take_lowest(std::vector<float>& lowest) {
+void LaneFit::take_lowest(std::vector<float>& lowest, const std::array<bool, padding>& tries) {
   float* const now = memory_.data();
   const auto size = static_cast<std::size_t>(state_.scratch - now),
              cost = static_cast<std::size_t>(state_.cost - now),
@@ -305,7 +333,7 @@ void LaneFit::take_lowest(std::vector<float>& lowest) {
   };
   if (lowest.empty()) lowest.assign(now, now + size);
   for (std::size_t l = 0; l < padding; ++l) {
-    const bool lower = expected(now, l) < expected(lowest.data(), l);
+    const bool lower = tries[l] && expected(now, l) < expected(lowest.data(), l);
     for (std::size_t at = l; at < size; at += padding)
       (lower ? lowest[at] : now[at]) = lower ? now[at] : lowest[at];
   }

@@ -197,7 +197,7 @@ TEST(Texels, OfDullSurfacesUnderOneCameraFollowTheValleyToItsLowestPoint) {
   const std::array kd{0.08, 0.16, 0.38};
   std::vector<Values> all;  // [texel × channel]
   s.truth.resize(s.model.values.size());
-  for (const double alpha : {0.4, 0.45, 0.5, 0.55})
+  for (const double alpha : {0.4, 0.45, 0.5, 0.55, 0.6, 0.65, 0.7, 0.8})
     for (const double f0 : {0.04, 0.06, 0.09, 0.15}) {
       for (const auto& q : s.model.model.parameters)
         for (std::size_t c = 0; c < q.count; ++c) {
