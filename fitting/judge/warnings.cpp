@@ -212,8 +212,8 @@ std::vector<std::string> physics_in_words(const Physics& p, bool misfit) {
         "the fitted model returns {:.4g} of the light that arrives at theta_i {:.3g}°{}: more than "
         "there is",
         most, at, std::isnan(table) ? "" : fmt::format(" (the table {:.3g})", table)));
-  constexpr double far_above =
-      1.5;           // or as far below, which alone is no fault: logs weigh few values little
+  // As far below alone is no fault: logarithms weigh few values little.
+  constexpr double far_above = 1.5;
   double ratio = 0;  // of channels that are dark in the model too there is none
   bool dark = false;
   for (const double r : p.peak_ratio)

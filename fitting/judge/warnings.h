@@ -55,7 +55,8 @@ std::vector<std::string> warnings(const FitOptions&,
 bool returns_too_much(const Physics&);
 
 /// Sentences of a model that returns more light than arrives, or rises far above its table.
-std::vector<std::string> physics_in_words(const Physics&, bool misfit = false);
+/// \param misfit  the model misses the table: then a peak far below it is named, too
+std::vector<std::string> physics_in_words(const Physics&, bool misfit);
 
 /// Sentences of a misfit that is told: its size with the angles that it follows, and its place.
 /// \param allowed_for  whether a parameter has an interval, which allows for it

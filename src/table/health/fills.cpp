@@ -64,7 +64,7 @@ std::optional<Frequent> most_frequent(const Table& t, const SampleAngles& at, st
   return first;
 }
 
-/// What stands beside a value in the table.
+/// The neighbours of a value in the table.
 struct Beside {
   double step;    ///< median ln of the factor between it and others
   double others;  ///< part of its neighbours that are others

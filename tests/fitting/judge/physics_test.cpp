@@ -52,8 +52,8 @@ TEST(Physics, IsWarnedOfWhereMoreLightComesBackThanArrived) {
     const Table t = synthesize(test::bind(paint, settings, 3), {.layout = Layout::hemisphere});
     const auto d = fit(t, {}).document;
     EXPECT_EQ(returns_too_much(d.physics), too_much);
-    EXPECT_EQ(physics_in_words(d.physics).size(), too_much ? 1U : 0U);
-    const auto words = physics_in_words(d.physics);
+    EXPECT_EQ(physics_in_words(d.physics, false).size(), too_much ? 1U : 0U);
+    const auto words = physics_in_words(d.physics, false);
     EXPECT_EQ(d.warnings.size(), 2 * words.size()) << "the table's own light comes first";
     EXPECT_TRUE(std::ranges::equal(words, std::span(d.warnings).last(words.size())));
   }
@@ -69,7 +69,7 @@ TEST(Physics, IsWarnedOfWhereTheModelRisesAboveTheTable) {
     o.fixed = {{"alpha", {0.05}}, {"f0", {0.05}}};
     const auto d = fit(t, o).document;
     EXPECT_EQ(d.physics.peak_ratio[0] > 1.5, most < 1);
-    const auto words = physics_in_words(d.physics);
+    const auto words = physics_in_words(d.physics, false);
     for (const auto& w : words) EXPECT_EQ(std::ranges::count(d.warnings, w), 1) << w;
     return words.size();
   };
