@@ -177,7 +177,7 @@ Exit run_batch(const FitCall& o) {
 
 /// A sentence that begins with a plain word, as the rest of another.
 std::string within_sentence(std::string text) {
-  for (const char* word : {"Every ", "On ", "The "})
+  for (const char* word : {"Every ", "Models ", "On ", "The "})
     if (text.starts_with(word)) text[0] = static_cast<char>(text[0] - 'A' + 'a');
   return text;
 }

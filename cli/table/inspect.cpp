@@ -2,6 +2,7 @@
 #include <cmath>
 #include <functional>
 
+#include "base/rounded.h"
 #include "cli/line/command.h"
 #include "cli/line/output_files.h"
 #include "cli/line/terminal.h"
@@ -71,7 +72,7 @@ void print(const Table& t, const Health& h) {
     for (const double v : a.albedo)
       channels += std::isnan(v) ? std::string("      –") : fmt::format(" {:.4f}", v);
     line("albedo", fmt::format("{:>4.1f}°:{}{}{}  (samples cover {:.0f} %)", a.theta_i_deg,
-                               channels, a.error < 5e-5 ? "" : fmt::format(" ± {:.1g}", a.error),
+                               channels, a.error < 5e-5 ? "" : " ± " + rounded_up(a.error),
                                a.phi_i_deg == 0 ? "" : fmt::format(", phi_i {:.3g}°", a.phi_i_deg),
                                100 * a.coverage));
   }

@@ -315,6 +315,14 @@ Advice advise(const ModelChoice& choice) {
         "The table has too few incident angles to leave some out, so BIC decides: it is least for "
         "{}.",
         take->model);
+  else if (take == best && std::ranges::any_of(choice.rows, [&](const ModelRow& r) {
+             return is_refuted(r, choice.rows) && r.cv_log_rms < take->cv_log_rms;
+           }))
+    a.reason = fmt::format(
+        "Models that are nearer on incident angles held out of their fits miss the whole table by "
+        "more than its noise. Of the others {} is nearest: there it is typically off by a factor "
+        "of {}.",
+        take->model, typical_factor(take->cv_log_rms));
   else if (take == best)
     a.reason = fmt::format(
         "On incident angles held out of its fit, {} is nearest to the table: there it is typically "

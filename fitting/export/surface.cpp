@@ -185,8 +185,11 @@ std::vector<std::string> lost_by_all(const BoundModel& fit,
   }
   for (const auto& d : fit.model.diffuse)
     shape |= !foreign_term(d.term) && std::ranges::none_of(diffuse, [&](std::string_view name) {
-      const auto id = short_id(catalogue()[d.term].id());
-      return id == name || id == std::string(name) + ".coupled";
+      // Whether a lobe takes from it, and what its colour is made of, is no shape.
+      std::string_view id = short_id(catalogue()[d.term].id());
+      for (const std::string_view of_colour : {".coupled", ".metallic"})
+        if (id.ends_with(of_colour)) id.remove_suffix(of_colour.size());
+      return id == name;
     });
   std::vector<std::string> lost;
   for (const auto& d : fit.model.diffuse)

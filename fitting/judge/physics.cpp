@@ -15,7 +15,7 @@ constexpr std::size_t most_of_a_list = 50'000;
 /// Albedos of the table, as far as they take less than a fit.
 std::vector<AlbedoSample> albedo_of(TableFacts& facts) {
   const Table& t = facts.table();
-  if (t.list() && (t.between || t.size() > most_of_a_list)) return {};
+  if (t.list() && t.patches.empty() && (t.between || t.size() > most_of_a_list)) return {};
   return facts.albedo().known;
 }
 

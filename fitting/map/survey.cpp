@@ -347,6 +347,11 @@ std::vector<std::string> warnings_of(const StackSurvey& s,
           fmt::format("the photographs seem not to be linear: read with a power of {:.2g}, "
                       "{}. Develop them without a tone curve, and make the stack again",
                       t->power, less));
+    else if (t->shadows)
+      lines.push_back(
+          fmt::format("dark values seem to be cast shadows that a little light reaches: without "
+                      "them {}. Leave them out by --floor",
+                      less));
     else if (t->room > 0)
       lines.push_back(
           fmt::format("the photographs seem to hold light of the room, about {:.0f} % of "

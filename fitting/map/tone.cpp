@@ -22,6 +22,7 @@ constexpr std::array<OtherTone, 9> tones{{{2.2, 0, 1},
                                           {1, 0, 0.5},
                                           {1, 0, 0.25}}};
 
+/// Changes all numbers; those that `room` or more is taken off are left out, as cast shadows are.
 void change(TexelSample& s, const OtherTone& tone) {
   const auto cosine = [&](std::size_t i, std::size_t t) {
     return s.of_light ? 1 : cosine_of(s, i, t);
@@ -35,7 +36,8 @@ void change(TexelSample& s, const OtherTone& tone) {
       for (std::size_t i = 0; i < s.images; ++i)
         if (const double y = double{value(i)} * cosine(i, t); y >= 0) sum += y, ++count;
       for (std::size_t i = 0; i < s.images; ++i) {
-        const double y = double{value(i)} * cosine(i, t) - tone.room * sum / count;
+        const double left = double{value(i)} * cosine(i, t) - tone.room * sum / count;
+        const double y = tone.shadows && left >= 0 ? double{value(i)} * cosine(i, t) : left;
         value(i) = static_cast<float>(tone.scale * std::pow(pi<double>() * y, tone.power) /
                                       pi<double>() / cosine(i, t));
       }
@@ -57,8 +59,8 @@ std::optional<OtherTone> other_tone(const TexelSample& s,
   constexpr double most_left = 0.6;
   const auto left = relative(before);
   const std::vector<double> least(s.texels, 1e-3);
-  std::array<ResidualRatio, tones.size()> seen;
-  tbb::parallel_for(std::size_t{0}, tones.size(), [&](std::size_t k) {
+  const auto compare = [&](const OtherTone& tone) {
+    ResidualRatio least_left;
     for (const bool sought : {false, true}) {
       TexelOptions as = o;
       as.refine_normals = as.refine_normals || sought;
@@ -68,17 +70,27 @@ std::optional<OtherTone> other_tone(const TexelSample& s,
         continue;
       }
       TexelSample changed = s;
-      change(changed, tones[k]);
+      change(changed, tone);
       const TexelFit fit = fit_sample(changed, as);
       const auto now = compare_residuals(relative(fit), left, least);
-      if (2 * now.texels < s.texels || now.ratio >= seen[k].ratio) continue;
-      seen[k] = now;
+      if (2 * now.texels >= s.texels && now.ratio < least_left.ratio) least_left = now;
     }
-  });
+    return least_left;
+  };
+  std::array<ResidualRatio, tones.size()> seen;
+  tbb::parallel_for(std::size_t{0}, tones.size(),
+                    [&](std::size_t k) { seen[k] = compare(tones[k]); });
   const auto best = std::ranges::min_element(seen, {}, &ResidualRatio::ratio);
   if (best->ratio > most_left || best->lower < 0.8) return std::nullopt;
   OtherTone found = tones[static_cast<std::size_t>(best - seen.begin())];
   found.ratio = best->ratio;
+  if (found.room > 0) {
+    // What is taken off also leaves out what it makes negative, which by itself may be the cure.
+    OtherTone without = found;
+    without.shadows = true;
+    if (const auto same = compare(without); same.ratio < 2 * found.ratio)
+      without.ratio = same.ratio, found = without;
+  }
   return found;
 }
 

@@ -493,7 +493,7 @@ std::string ModelsSections::html() {
                                            count_text(static_cast<std::size_t>(
                                                std::lround(choice_.effective_values))))
                              : ""},
-              {"to fit it alone",
+              {"this model's own fit",
                compared_.empty()
                    ? ""
                    : fmt::format("`gonio fit {} --model {}{} -o fit.json --html fit.html`",

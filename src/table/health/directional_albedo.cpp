@@ -32,8 +32,8 @@ struct Values3 {
   /// Where they are asked for: what f may as well be between samples that far apart (their geometric mean on the flank of a
   /// highlight), and what every other sample would make of it.
   std::vector<double> otherwise, coarse;
-  std::vector<double> apart;  ///< by which one half of the samples makes it more than the other
-                              ///< does; 0 where nobody says
+  /// By which one half of the samples makes it more than the other does, of two halvings; empty where nobody says.
+  std::vector<std::array<double, 2>> apart;
 };
 using Between = std::function<void(const DirectionPair&, bool all, Values3&)>;
 
@@ -44,24 +44,24 @@ using Between = std::function<void(const DirectionPair&, bool all, Values3&)>;
 ///
 /// The error is the sum of six: what two rules of every other node differ by; what it changes, at every fourth node, to
 /// interpolate logarithms, since between samples on the flank of a highlight the surface lies between the two; half of what it
-/// changes to leave out every other sample, which makes errors of interpolation four times as large; half of what two halves of the
-/// samples differ by, which a ridge makes that few of them meet; what lacks, which may be twice
-/// what it is nearest to; and half a thousandth at the horizon, where samples end.
+/// changes to leave out every other sample, which makes errors of interpolation four times as large; what two halves
+/// of the samples differ by, the more of two halvings, which a ridge makes that few of them meet; what lacks, which may be twice what it is nearest to; and half a thousandth at the horizon, where samples end.
 AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& between) {
   constexpr std::size_t radii = 96, rays = 64;
   constexpr double pi = std::numbers::pi;
   const Direction wi = direction(theta_i_deg * degree, 0);
   const double slope = wi.x / wi.z;
   struct Sums {
-    std::array<double, 2> value{}, weight{};                      // of every other node
-    double otherwise = 0, coarse = 0, halves = 0, looked_at = 0;  // differences
+    std::array<double, 2> value{}, weight{};          // of every other node
+    double otherwise = 0, coarse = 0, looked_at = 0;  // differences
+    std::array<double, 2> halves{};
     double beside = 0;  // weight × value nearest to what lacks
     double lacks = 0, pending = 0,
            last = 0;  // weights; those of a ray before its first value; that value
   };
   std::vector<Sums> sums(channels);
   const std::vector<double> nothing(channels);
-  Values3 here{nothing, nothing, nothing, nothing};
+  Values3 here{nothing, nothing, nothing, {}};
   std::array<double, 2> all_nodes{};
   for (std::size_t j = 0; j < rays; ++j) {
     const double psi = 2 * pi * (static_cast<double>(j) + 0.5) / rays, k = slope * std::cos(psi),
@@ -96,7 +96,9 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
         s.looked_at += weight;
         if (std::isfinite(here.otherwise[c])) s.otherwise += weight * (here.otherwise[c] - f);
         if (std::isfinite(here.coarse[c])) s.coarse += weight * (here.coarse[c] - f);
-        if (std::isfinite(here.apart[c])) s.halves += weight * here.apart[c];
+        if (!here.apart.empty())
+          for (const bool second : {false, true})
+            s.halves[second] += weight * here.apart[c][second];
       }
     }
   }
@@ -109,7 +111,8 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
     a.coverage = std::min(a.coverage, all / whole);
     if (!(all > whole / 2)) continue;
     const double halves = std::abs(v[0] / w[0] - v[1] / w[1]);
-    const double apart = (std::abs(s.otherwise) + std::abs(s.coarse) / 2 + std::abs(s.halves) / 2) /
+    const double apart = (std::abs(s.otherwise) + std::abs(s.coarse) / 2 +
+                          std::max(std::abs(s.halves[0]), std::abs(s.halves[1]))) /
                          std::max(s.looked_at, 1e-300);
     const double lacks =
         std::max(std::abs(2 * s.beside - mean * s.lacks), mean * s.lacks / 2) / whole;
@@ -118,6 +121,11 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
     a.error = std::max(a.error, pi * (halves + apart + lacks + horizon));
   }
   return a;
+}
+
+/// True of values that count in an integral.  Noise goes both ways: without its negative half the rest would be too bright.
+bool counts(Mask m, bool noisy) {
+  return m == Mask::valid || (m == Mask::negative && noisy);
 }
 
 /// Sum over the patches that a list's values are means of, exact, from the incident patch nearest to θ_i.
@@ -129,11 +137,12 @@ AlbedoSample sum_of_patches(const Table& t, double theta_i_deg) {
   for (std::size_t i = 1; i < t.size(); ++i)
     if (dot(at.directions(i).wi, wanted) > dot(at.directions(nearest).wi, wanted)) nearest = i;
   AlbedoSample a{theta_i_deg, l.phi_i_deg[nearest], {}, 1, 0};
+  const bool noisy = noise_floor(t) > 0;
   for (const auto& plane : t.values) {
     double sum = 0, weight = 0;
     for (std::size_t i = 0; i < t.size(); ++i) {
       if (l.theta_i_deg[i] != l.theta_i_deg[nearest] || l.phi_i_deg[i] != l.phi_i_deg[nearest] ||
-          mask(at(i), plane[i]) != Mask::valid)
+          !counts(mask(at(i), plane[i]), noisy))
         continue;
       sum += t.patches[i] * plane[i];
       weight += t.patches[i];
@@ -271,9 +280,7 @@ class AroundOneLight {
   double value(const Sample* s, std::size_t channel) const {
     if (!s) return std::nan("");
     const double v = table_.values[channel][s->number];
-    const Mask m = mask(at_(s->number), v);
-    // Noise goes both ways: without its negative half the rest would be too bright.
-    return m == Mask::valid || (m == Mask::negative && noisy_) ? v : std::nan("");
+    return counts(mask(at_(s->number), v), noisy_) ? v : std::nan("");
   }
 
   const Table& table_;
@@ -341,10 +348,13 @@ TableAlbedo albedo_of_list(const Table& t, const PeakSearch& search) {
     for (const auto& node : nodes)
       if (f.reaches(node.direction)) within += node.weight;
     if (within < 0.95 * std::numbers::pi) return;
-    std::array<std::vector<std::size_t>, 2> halves;
-    for (const std::size_t i : samples) halves[Draws(1, i).uniform() < 0.5].push_back(i);
-    const std::array of_half{AroundOneLight(t, halves[0], half, noisy),
-                             AroundOneLight(t, halves[1], half, noisy)};
+    std::array<std::vector<std::size_t>, 4> halves;  // of two halvings
+    for (const std::size_t i : samples) {            // whatever their order
+      Draws draws(1, std::lround(l.theta_o_deg[i] * 1e3), std::lround(l.phi_o_deg[i] * 1e3));
+      for (const std::size_t first : {0, 2}) halves[first + (draws.uniform() < 0.5)].push_back(i);
+    }
+    std::vector<AroundOneLight> of_half;
+    for (const auto& some : halves) of_half.emplace_back(t, some, half, noisy);
     std::vector<AroundOneLight::Between> here(t.channels.size()), there(here);
     AlbedoSample a =
         integrate(incident.first, here.size(), [&](const DirectionPair& p, bool all, Values3& v) {
@@ -353,20 +363,23 @@ TableAlbedo albedo_of_list(const Table& t, const PeakSearch& search) {
           if (!all) return;
           for (std::size_t c = 0; c < here.size(); ++c) v.otherwise[c] = v.f[c] - here[c].doubt;
           v.coarse = v.f;
-          v.apart.assign(here.size(), 0);
-          for (double sign : {-1.0, 1.0}) {
-            of_half[sign > 0](p, there);
+          v.apart.assign(here.size(), {});
+          for (std::size_t part = 0; part < of_half.size(); ++part) {
+            of_half[part](p, there);
             for (std::size_t c = 0; c < there.size(); ++c) {
               const double change = there[c].line - here[c].line;
               if (!std::isfinite(change)) continue;
-              v.coarse[c] += 2 * change;
-              v.apart[c] += sign * change;
+              v.coarse[c] += change;  // four times their mean
+              v.apart[c][part / 2] += part % 2 == 0 ? -change : change;
             }
           }
         });
     a.phi_i_deg = incident.second;
     double most = 0;
     for (const double v : a.albedo) most = std::max(most, v);
+    // Between rings of samples of another surface's ridge or rim, as far as tried.
+    constexpr double of_list = 3e-3;
+    if (a.error > of_list / 100 * most) a.error += of_list * most;
     constexpr double known = 0.2;  // a peak between samples farther apart cannot be integrated
     found[k] = {std::move(a), f.from_mirror(), !(a.error > known * most)};
   });

@@ -2,6 +2,7 @@
 /// \file
 /// What a table's values show without a model: each found once, when it is first asked for.
 
+#include <cmath>
 #include <optional>
 #include <vector>
 
@@ -25,7 +26,11 @@ class TableFacts {
     return once(peak_, [&] { return find_peak(table_, table_.bins()); });
   }
   const std::optional<Peak>& retro() {
-    return once(retro_, [&] { return retro_peak(table_, peak().peak); });
+    return once(retro_, [&] {
+      auto found = retro_peak(table_, peak().peak);
+      if (found && is_noise(*found)) found.reset();
+      return found;
+    });
   }
   const NoiseSamples& noise_samples() {
     return once(noise_samples_, [&] { return gonio::noise_samples(table_); });
@@ -54,6 +59,11 @@ class TableFacts {
   }
   const std::vector<double>& lost_below() {
     return once(lost_below_, [&] { return gonio::lost_below(*this); });
+  }
+  /// True where the noise of single values makes as high a peak by itself: three standard deviations above its base.
+  bool is_noise(const Peak& p) {
+    const Noise& n = noise();
+    return n.sigma && !n.bound && p.height < p.base * std::exp(3 * *n.sigma);
   }
   /// See one_value_per_angle().
   bool computed() {

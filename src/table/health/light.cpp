@@ -38,9 +38,7 @@ std::string unit_of(const Table& t, double light) {
                : "";
   }
   if (light < slack * pi) return scaled_by(t, "a radiance factor", 1 / pi);
-  constexpr double dark = 0.03;  // albedo of what is hardly ever measured in percent
-  if (light > dark * 100 * pi && light < slack * 100 * pi)
-    return scaled_by(t, "a radiance factor in percent", 0.01 / pi);
+  if (light < slack * 100 * pi) return scaled_by(t, "a radiance factor in percent", 0.01 / pi);
   return fmt::format(": counts? (gonio fit {} --scale free, or a white standard by --reference)",
                      file_word(t));
 }

@@ -22,6 +22,7 @@ struct Survey {
   double darkest = 0, brightest = 0;  ///< a hundredth of the values lies below, above [1/sr]
   double in_noise = 0;                ///< share of values below three times the noise floor
   bool computed = false;              ///< see one_value_per_angle()
+  bool peak_is_noise = false;         ///< see TableFacts::is_noise()
   double tail = 0;  ///< of a GGX lobe as wide as the highlight, where the base is, over its height
 };
 
@@ -43,6 +44,7 @@ Survey survey(TableFacts& facts, const Health& h) {
   const double within = h.peak ? std::max(h.peak->half_width_deg, 3.0) : 3.0;
   Survey s;
   s.computed = facts.computed();
+  s.peak_is_noise = h.peak && facts.is_noise(*h.peak);
   std::vector<double> values;
   std::vector<Angles<double>> base;
   std::size_t in_noise = 0;
@@ -111,6 +113,9 @@ Prospect alpha(const Health& h, const Survey& s) {
         fmt::format("no highlight: the values nearest the half vector are {:.3g} times the "
                     "base; a lobe, if there is one, is wide, and a fit must part it from the base",
                     h.peak_contrast));
+  if (s.peak_is_noise)
+    return say(weakly,
+               fmt::format("the highlight, {:.3g} times the base, may be noise", h.peak_contrast));
   return say(h.peak->limit == PeakLimit::none ? yes : weakly, peak_in_words(*h.peak));
 }
 
@@ -121,7 +126,7 @@ Prospect f0(const Health& h, const Survey& s, Verdict of_alpha) {
     return say(
         no,
         "it scales the smaller of two highlights; none of the larger, at wo = wi, is the lobe's");
-  if (!h.peak) return say(weakly, "it scales a lobe that is hardly seen");
+  if (!h.peak || s.peak_is_noise) return say(weakly, "it scales a lobe that is hardly seen");
   if (h.peak->limit == PeakLimit::samples)
     return say(weakly,
                "the height of a peak that is not resolved is the instrument's as much as "

@@ -22,28 +22,30 @@ bool ends_in_zero(double x) {
 
 /// The step of which all values are whole multiples, as a converter's counts times a factor are; 0 where there is none.
 /// The least gap says how large it is roughly, greater and greater multiples ever more exactly.
-double common_step(std::vector<double> values) {
-  constexpr std::size_t fewest = 12;     // fewer may meet a step by chance
-  constexpr double of_one_value = 1e-7;  // as far as one number is printed in two ways
-  constexpr double off = 0.02;           // steps
+/// \param written  half a unit of a value's last digit
+template <class Written>
+double common_step(std::vector<double> values, Written&& written) {
+  constexpr std::size_t fewest = 16;  // fewer may meet a step by chance
+  constexpr double coarser = 8;       // than what is written, or any value meets it
   std::ranges::sort(values);
-  double step = 0;
+  double gap = HUGE_VAL, unsure = 0;
   std::vector<double> distinct;
   for (const double v : values) {
-    const double gap = distinct.empty() ? v : v - distinct.back();
-    if (gap <= of_one_value * v) continue;
-    step = distinct.empty() ? gap : std::min(step, gap);
+    const double here = distinct.empty() ? v : v - distinct.back();
+    if (here <= 2.5 * written(v)) continue;  // one number, written in two ways
+    if (here < gap) gap = here, unsure = 2 * written(v);
     distinct.push_back(v);
   }
   if (distinct.size() < fewest) return 0;
-  double products = 0, squares = 0;
+  double low = gap - unsure, high = gap + unsure;
   for (const double v : distinct) {
-    const double k = std::round(v / step);
-    if (!(k >= 1) || std::abs(v / step - k) > off) return 0;
-    products += k * v, squares += k * k;
-    step = products / squares;
+    const double off = written(v), k = std::round(2 * v / (low + high));
+    if (!(low > 0) || !(k >= 1) || !(v * (1 / low - 1 / high) < 0.5)) return 0;
+    low = std::max(low, (v - off) / k), high = std::min(high, (v + off) / k);
+    if (!(low <= high)) return 0;
   }
-  return step;
+  const double step = (low + high) / 2;
+  return step > coarser * written(step) ? step : 0;
 }
 
 }  // namespace
@@ -76,13 +78,17 @@ FileRounding rounding_of(const Table& t) {
   }
   FileRounding r;
   if (seen.empty()) return r;
-  constexpr double coarser = 1.5;
-  if (const double common = common_step(seen);
-      common > (decimals <= most_digits ? coarser * std::pow(10, -decimals) : 0)) {
+  const bool by_decimals = decimals <= most_digits, by_digits = digits <= most_digits;
+  const auto written = [&](double v) {
+    constexpr double at_least = 1e-9;  // of a double that was computed
+    const double last = by_decimals ? std::pow(10, -decimals) : 0,
+                 of_digits = by_digits ? std::pow(10, decade_of(v) + 1 - digits) : 0;
+    return std::max({last / 2, of_digits / 2, at_least * v});
+  };
+  if (const double common = common_step(seen, written); common > 0) {
     r.absolute = uniform * common;
     return r;
   }
-  const bool by_decimals = decimals <= most_digits, by_digits = digits <= most_digits;
   const auto zeros = [&](const auto& places) {
     return std::ranges::count_if(seen, [&](double v) { return ends_in_zero(places(v)); });
   };

@@ -31,7 +31,7 @@ void warn_of_dark_channels(const Table& t, std::vector<std::string>& all) {
 /// of the others at each direction, no colour makes it.
 void warn_of_faint_channels(const Table& t, std::vector<std::string>& all) {
   if (t.values.size() < 2) return;
-  constexpr double faint = 1 / 200.0, most_of_all = 0.99;  // the rest may be noise
+  constexpr double faint = 1 / 80.0, most_of_all = 0.99;  // the rest may be noise
   constexpr std::size_t fewest = 8, enough = 20'000;
   const std::size_t step = t.size() / enough + 1;
   std::vector<double> brightest, second;  // of all channels

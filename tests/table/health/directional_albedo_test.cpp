@@ -282,6 +282,22 @@ TEST(AlbedoOfATable, IsWithinItsErrorWhereAzimuthsAreFurtherApartThanZenithAngle
         }
     }
   EXPECT_GE(known, 100U);
+  // A retro edge, whose bound is the same in whatever order the samples stand.
+  const BoundModel eon = bind_model("eon", {{"kd", {0.7}}, {"r", {1}}}, 1);
+  for (const double phi_step : {10.0, 12.0}) {
+    const Table t = rings_of(eon, {20, 55, 70}, 2, 0, true, phi_step);
+    Table reversed = t;
+    auto& l = std::get<DirectionList>(reversed.where);
+    for (auto* column : {&l.theta_i_deg, &l.phi_i_deg, &l.theta_o_deg, &l.phi_o_deg})
+      std::ranges::reverse(*column);
+    std::ranges::reverse(reversed.values[0]);
+    const auto all = directional_albedo(t), same = directional_albedo(reversed);
+    ASSERT_EQ(all.size(), 3U);
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      EXPECT_NEAR(all[k].albedo[0], albedo_of(eon, all[k].theta_i_deg), all[k].error);
+      EXPECT_NEAR(same[k].error, all[k].error, 1e-4 * all[k].error);
+    }
+  }
 }
 
 }  // namespace

@@ -24,6 +24,9 @@ TEST(ValueWarnings, SayThatMoreLightLeavesThanArrivesHoweverFarRoundTheSamplesGo
                    "a radiance factor? (gonio columns FILE --scale 0.3183099)"));
   EXPECT_TRUE(says(said_of(painted(180), [](const auto&, double f) { return 100 * M_PI * f; }),
                    "in percent? (gonio columns FILE --scale 0.003183099)"));
+  EXPECT_TRUE(says(said_of(painted(0, 0.02), [](const auto&, double f) { return 100 * M_PI * f; }),
+                   "in percent?"))
+      << "a black paint in one plane";
   EXPECT_TRUE(
       says(said_of(painted(180), [](const auto&, double f) { return 1e5 * f; }), "counts?"));
   EXPECT_TRUE(says(said_of(painted(180), [](const auto&, double f) { return 1e-4 * f; }),

@@ -49,6 +49,9 @@ TEST(FileRounding, IsThatOfAConvertersStepWhichIsNoPowerOfTen) {
   EXPECT_NEAR(counts(0.01233, 12), 0.01233 * uniform, 1e-9);
   EXPECT_NEAR(counts(0.01233, 6), 0.01233 * uniform, 1e-6);
   EXPECT_NEAR(counts(0.0125, 9), 0.0125 * uniform, 1e-9);
+  std::vector<double> bytes;  // of 8 bits, in four decimals
+  for (int k = 2; k < 250; k += 1 + k / 9) bytes.push_back(std::round(k / 255. * 1e4) / 1e4);
+  EXPECT_NEAR(rounding_of(of(bytes)).of(0.5), uniform / 255, 1e-5);
   EXPECT_NEAR(counts(0.001, 9), 0.001 * uniform, 1e-9);
 }
 
