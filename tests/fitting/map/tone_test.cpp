@@ -56,6 +56,21 @@ TEST(Tone, OfLightOfTheRoomIsTakenOff) {
   const auto found = look_recorded([](double light, double mean) { return light + 0.25 * mean; });
   ASSERT_TRUE(found.tone);
   EXPECT_EQ(found.tone->room, 0.2);  // of the mean with it
+  EXPECT_FALSE(found.tone->shadows);
+}
+
+TEST(Tone, OfCastShadowsThatALittleLightReachesIsNoLightOfTheRoom) {
+  std::size_t call = 0;  // image within channel within texel
+  const auto found = look_recorded([&](double light, double mean) {
+    const std::size_t texel = call / (24 * 3), image = call % 24;
+    ++call;
+    return (image + texel / 16) % 4 == 0 ? 0.01 * mean : light;
+  });
+  ASSERT_TRUE(found.tone);
+  EXPECT_TRUE(found.tone->shadows);
+  const auto lines = warnings_of(found, {}, "m");
+  ASSERT_FALSE(lines.empty());
+  EXPECT_NE(lines[0].find("--floor"), lines[0].npos) << lines[0];
 }
 
 TEST(Tone, OfAWhiteThatIsTooDarkIsAScale) {
