@@ -251,6 +251,18 @@ TEST(Advice, TakesNoModelThatIsToldToMissWhereANearerOneIsNot) {
   EXPECT_NE(advise(c).as_good, std::vector<std::string>{});
 }
 
+TEST(Advice, CallsNoModelNearestWhoseNeighbourIsNearerAndMisses) {
+  ModelChoice c;
+  c.blocks = 3;
+  c.rows = {row("nearer", 3, 0.03, 0, 0), row("kept", 7, 0.1, 0, 0)};
+  c.rows[0].misses = true;
+  c.rows[0].log_rms = 0.04, c.rows[1].log_rms = 0.02;
+  const auto a = advise(c);
+  EXPECT_EQ(a.recommended, "kept");
+  EXPECT_EQ(a.reason.find("nearest to the table"), a.reason.npos) << a.reason;
+  EXPECT_NE(a.reason.find("miss the whole table"), a.reason.npos) << a.reason;
+}
+
 TEST(ModelChoice, SaysFromWhichOffsetItsLogRmsCounts) {
   Table t = table_of(paint, {"alpha=0.3", "f0=0.04", "kd=0.2"}, 1);
   EXPECT_EQ(floor_in_words(compare_models(t, {}, std::array{paint})), "");

@@ -1,6 +1,7 @@
 #include "table/health/prospects.h"
 
 #include <algorithm>
+#include <random>
 
 #include "brdf/model/evaluate.h"
 #include "support.h"
@@ -114,6 +115,17 @@ TEST(Prospects, AreDimWhereTheNoiseFloorIsHigherThanTheBase) {
   EXPECT_EQ(verdict(t, "alpha"), Verdict::yes);
   EXPECT_NE(verdict(t, "kd"), Verdict::yes);
   EXPECT_NE(verdict(t, "precision"), Verdict::yes);
+}
+
+TEST(Prospects, OfNoiseShowNoHighlight) {
+  for (const std::uint64_t seed : {1, 2, 3, 4, 5, 6, 7, 8}) {
+    Table t = in_plane_of(0.3, 0.3);
+    std::mt19937_64 random(seed);
+    std::normal_distribution<double> normal;
+    for (double& f : t.values[0]) f = 0.1 + 0.05 * normal(random);
+    EXPECT_NE(verdict(t, "alpha"), Verdict::yes) << seed;
+    EXPECT_FALSE(inspect(t).retro) << seed;
+  }
 }
 
 TEST(Prospects, OfATableWithoutAValidValueAreNone) {
