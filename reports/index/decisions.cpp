@@ -455,7 +455,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
                           delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("you accept up to {} of reflected light: then {}, {}",
+    d.unless = fmt::format("you accept up to {} of reflected light: then “{}”, {}",
                            made(*form_of(nearer->form)), in_text(nearer->form),
                            delta_at_most(nearer->error));
   to.push_back(std::move(d));

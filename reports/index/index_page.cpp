@@ -185,8 +185,10 @@ std::string page_of(std::string_view report, std::string_view anchor = "") {
 }
 /// The text, in which no line ends between a number and what it is of.
 std::string unbroken(std::string text) {
-  for (const auto& [apart, together] :
-       {std::pair("≤ ", "≤\u00a0"), {"F0 ", "F0\u00a0"}, {" ns", "\u00a0ns"}})
+  for (const auto& [apart, together] : {std::pair("≤ ", "≤\u00a0"),
+                                        {"F0 ", "F0\u00a0"},
+                                        {" ns", "\u00a0ns"},
+                                        {"|n × h|²", "|n\u00a0×\u00a0h|\u2060²"}})
     for (std::size_t at = 0; (at = text.find(apart, at)) != std::string::npos;)
       text.replace(at, std::string_view(apart).size(), together);
   return text;

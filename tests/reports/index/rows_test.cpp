@@ -250,7 +250,7 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
                              "; diffuse and lobe together reflect up to 140\u00a0% of the light "
                              "(with Lambert 191\u00a0%)");
   EXPECT_EQ(below.unless,
-            "you accept up to 220\u00a0% of reflected light: then Disney's diffuse, ΔE ≤ 1")
+            "you accept up to 220\u00a0% of reflected light: then “Disney's diffuse”, ΔE ≤ 1")
       << "the nearest of them, and what it gains";
 }
 
