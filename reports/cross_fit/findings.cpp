@@ -265,8 +265,8 @@ void published(Findings& to, const CrossFitRows& r) {
       "for many materials even GGX's tail is not long enough", "",
       verdict(2 * longer > tails.size(), longer > 0),
       fmt::format("{} by their published exponents", of_all(longer, tails.size())),
-      fmt::format("Löw and others fitted measured materials of MERL. Their exponent falls off more "
-                  "slowly than GGX's for {} materials.",
+      fmt::format("Löw and others fitted measured materials of MERL. By their exponents the tail "
+                  "falls off more slowly than GGX's for {} materials.",
                   of_all(longer, tails.size())));
   std::vector<double> gamma;
   for (const auto& p : r.published)

@@ -305,7 +305,7 @@ function show_facts() {
     for (const table of items) if (comparable(table)) {
       checked(g.difference(model.handle, table.samples, room.f, room.rgba)), put(`ratio-${items.indexOf(table)}`, mapSize);
       const [n, typical, worst, h, d] = numbers(room.f, 5);
-      lines.push(n ? `${label(model)} beside ${label(table)}: typical factor ×/÷ ${typical.toFixed(3)} over ${n} of its values${beside_fit(model, table)}; worst sample at θh ${degrees(h)}, θd ${degrees(d)}, where the model is ${worst > 1 ? `${shown(Number(worst.toPrecision(3)))} times too bright` : `${shown(Number((1 / worst).toPrecision(3)))} times too dark`}.${sphere_words(model, table)}` : `${label(model)} and ${label(table)} have no value in common.`);
+      lines.push(n ? `${label(model)} beside ${label(table)}: typical factor ×/÷ ${typical.toFixed(3)} over ${n} of its values${beside_fit(model, table)}; worst on the page's grid at θh ${degrees(h)}, θd ${degrees(d)}, where the model is ${worst > 1 ? `${shown(Number(worst.toPrecision(3)))} times too bright` : `${shown(Number((1 / worst).toPrecision(3)))} times too dark`}.${sphere_words(model, table)}` : `${label(model)} and ${label(table)} have no value in common.`);
     }
   }
   $("facts").replaceChildren(...lines.map((line) => make("p", {}, line)));

@@ -376,13 +376,14 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     const auto pays = *compensated(*scattering_of(f, taken->form, f0, of_image_light), *nothing);
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), pays.from);
     d.error = delta_at_most(pays.error);
-    if (pays.below > pays.error)
+    if (!(pays.below > pays.error))
+      d.error += " at all roughnesses";
+    else
       d.error += fmt::format("; below that roughness, with one bounce, {}", at_most(pays.below));
-    d.error += fmt::format(" ({}one bounce at all roughnesses: {})",
-                           taken->error > side_by_side && all.size() > 2
-                               ? "no other form with one bounce below leaves less; "
-                               : "",
-                           at_most(without));
+    d.error += fmt::format(
+        " ({}one bounce{}: {})",
+        taken->error > side_by_side && all.size() > 2 ? "no other form used so leaves less; " : "",
+        pays.below > pays.error ? " at all roughnesses" : "", at_most(without));
     d.unless += nearer_below(f, f0, of_image_light, pays);
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
@@ -484,20 +485,21 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                   "none (half keeps its digits from no α on)", "", ""});
     return;
   }
-  to.push_back({"Precision: D V F NoL of GGX in half",
-                fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
-                "ndf.ggx",
-                fmt::format("≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}°, with "
-                            "the cosines in half as well ("
-                            "a search found no larger error, which is no proof)",
-                            percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
-                fmt::format("surfaces below roughness {0} look like {0}",
-                            rounded_up(std::sqrt(*half->safe_from))),
-                fmt::format("only D is in half: then α at least {}{}", rounded_up(*own->safe_from),
-                            kept && kept->safe_from
-                                ? fmt::format(", or at {} where the processor keeps subnormals",
-                                              rounded_up(*kept->safe_from))
-                                : "")});
+  to.push_back(
+      {"Precision: D V F NoL of GGX in half",
+       fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
+       "ndf.ggx",
+       fmt::format("≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}°, with "
+                   "the cosines in half as well ("
+                   "a search found no larger error, which is no proof)",
+                   percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
+       fmt::format("surfaces below roughness {0} look like {0}",
+                   rounded_up(std::sqrt(*half->safe_from))),
+       fmt::format("only D is in half: then α at least {}{}", rounded_up(*own->safe_from),
+                   kept && kept->safe_from
+                       ? fmt::format(", or at least {} where the processor keeps subnormals",
+                                     rounded_up(*kept->safe_from))
+                       : "")});
 }
 
 }  // namespace

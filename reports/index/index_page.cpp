@@ -334,8 +334,9 @@ std::string index_page_html(const ReportIndex& i) {
   if (!i.front.figures.empty())
     out.sections.push_back({"What masking's accuracy costs",
                             "Error of G₂ against height-correlated Smith, over the time of a "
-                            "sample. No form is both faster and more accurate than one on the "
-                            "dashed line. The error is an RMS over a grid of directions and "
+                            "sample. The dashed line joins the forms that no other beats in "
+                            "both; two times count as equal if they vary by more than their "
+                            "difference. The error is an RMS over a grid of directions and "
                             "widths. The masking row above averages evenly over both cosines and "
                             "roughness, so its figures differ.",
                             {page::Shown{i.front.figures[0].family, {}, 440}},

@@ -265,7 +265,7 @@ Section search(const FitDocument& d, Pictures& pictures) {
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
       "For each of {} of {}, the other parameters were fitted anew to a part of the table. The "
-      "best few were then refitted to the whole table. {} is better than the fit above: their "
+      "same was done for the best few on the whole table. {} is better than the fit above: their "
       "lowest "
       "cost (half the sum of squares) is {}, that of the fit {}.{} This is a search, not a proof.",
       many(c.cells.size(), c.parameters.size() == 1 ? "value" : "pair"),

@@ -144,7 +144,7 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   const auto& bounces = about(all, "Multiple scattering under single lights");
   EXPECT_EQ(bounces.subject, "Multiple scattering under single lights, F0 0.9 (bright metal)");
   EXPECT_EQ(bounces.take, "Turquin, from roughness 0.4 on");
-  EXPECT_EQ(bounces.error, "ΔE ≤ 1.9 (one bounce at all roughnesses: ≤ 18)");
+  EXPECT_EQ(bounces.error, "ΔE ≤ 1.9 at all roughnesses (one bounce: ≤ 18)");
   EXPECT_EQ(bounces.unless, "the surface is no metal (F0 0.04): then one bounce, ΔE ≤ 1.9");
   EXPECT_EQ(bounces.cost,
             "12 ns instead of 4.1 ns, one call at a time (not comparable with other rows)");

@@ -81,13 +81,11 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
     if (s.roughness < 0.5 && s.id == "single") below = std::max(below, s.delta_e + s.error);
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(
-      row.error,
-      fmt::format("{}{} (no other form with one bounce below leaves less; one bounce at all "
-                  "roughnesses: {})",
-                  up_to(kulla),
-                  below > kulla ? "; below that roughness, with one bounce, " + at_most(below) : "",
-                  at_most(nothing)));
+  EXPECT_EQ(row.error,
+            fmt::format("{}{} (no other form used so leaves less; one bounce{}: {})", up_to(kulla),
+                        below > kulla ? "; below that roughness, with one bounce, " + at_most(below)
+                                      : " at all roughnesses",
+                        below > kulla ? " at all roughnesses" : "", at_most(nothing)));
   EXPECT_NE(below, kulla);
   EXPECT_NE(row.unless.find("the surface is no metal (F0 0.04): then one bounce, ΔE ≤ 1.4"),
             row.unless.npos)
