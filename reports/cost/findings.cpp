@@ -71,10 +71,9 @@ class Sayings {
                *streaming = between("ggx/schlick_ggx.direct/schlick",
                                     "ggx/smith_ggx.correlated/schlick", best_, "streaming");
     if (!cache || !streaming) return;
-    // What no difference was found of may be as much as its spread hides.
     const auto text = [&](const CostSwitch& s) {
       if (s.differs) return s.ns > 0 ? ns_text(s.ns) + " more" : std::string("no more");
-      return fmt::format("at most {} more", ns_text(std::max(s.ns, 0.0) + s.ns_spread));
+      return fmt::format("nothing that shows (± {})", ns_text(s.ns_spread));
     };
     said_.headline = fmt::format(
         "Exact Smith in place of Schlick's k costs {} in cache. A whole GGX model "

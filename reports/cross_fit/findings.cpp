@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "base/quantile.h"
+#include "base/rounded.h"
 #include "reports/cross_fit/cases.h"
 #include "reports/finding/names.h"
 #include "reports/finding/words.h"
@@ -134,6 +135,10 @@ std::optional<std::pair<double, double>> over_all(const std::vector<CrossRange>&
   return out;
 }
 
+/// A share with its sign, rounded away from 0: an end of a range.
+std::string outward(double share) {
+  return (share < 0 ? "−" : "+") + rounded_up(100 * std::abs(share)) + "\u202f%";
+}
 /// F0 by metric and directions: a figure for one of them alone is none.
 void f0_of_glass(Findings& to, const CrossFitRows& r) {
   const auto all = ranges(r);
@@ -141,9 +146,10 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
     const auto f0 = over_all(all, form, false), whole = over_all(all, form, true);
     if (!f0) continue;
     to.say(
-        fmt::format("F0 of glass (IOR 1.5), fitted with {}, is off {} where the fit bounds it, "
+        fmt::format("F0 of glass (IOR 1.5), fitted with {} to single scattering, is off {} where "
+                    "the fit bounds it, "
                     "depending on metric and directions.",
-                    with(form), span(f0->first, f0->second, signed_percent)));
+                    with(form), span(f0->first, f0->second, outward)));
     if (to.headline.empty()) to.headline = to.sentences.back();
     if (whole)
       to.say(fmt::format(

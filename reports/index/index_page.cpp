@@ -378,8 +378,10 @@ std::string index_page_html(const ReportIndex& i) {
             "light the reference is transport between the facets under even light. For single "
             "lights it is random walks, whose error is added, on a ball lit from 30° and from "
             "120° to the view.",
-            "Multiple scattering is compensated only where the missing light is seen, and where "
-            "compensation lowers ΔE2000 by 1 or more.",
+            "Multiple scattering is compensated from the roughness on from which one bounce errs "
+            "by "
+            "more than shows side by side and the compensation is nearer, in the worse of the "
+            "lights. It has to lower the greatest ΔE2000 by 1 or more.",
             "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
             "Two forms are timed in the same process, and a cost is their difference.",
             "Times are medians over several processes on this machine. A difference counts only "

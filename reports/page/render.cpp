@@ -85,7 +85,7 @@ class Renderer {
   std::string setting() const {
     if (page_.name.empty()) return prose(page_.setting);
     return fmt::format(
-        "{} setting. {}{}Every number of this page is in the JSON document beside it.",
+        "{} setting. {}{}The rows and pictures of this page are in the JSON document beside it.",
         page_.full    ? "Full"
         : page_.quick ? "Quick"
                       : "Standard",

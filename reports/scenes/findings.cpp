@@ -74,7 +74,7 @@ void savings(Findings& to, const ScenesRows& r) {
       "and {} for {}. {}.",
       no_difference, save, up_to, scene_text(most),
       none.empty() ? fmt::format("The least is saved for {}", scene_text(least))
-                   : fmt::format("As good as nothing can be saved for {}", scenes_text(none))));
+                   : fmt::format("Less than a tenth is saved for {}", scenes_text(none))));
   double slowest_of_all = 1;
   for (const auto* row : slower) slowest_of_all = std::min(slowest_of_all, row->speedup_float);
   for (const bool by_table : {true, false}) {

@@ -413,7 +413,7 @@ std::string without_table(const scene::MaterialPlan& m, const scene::Tolerance& 
   return set.keeps_margin()
              ? fmt::format("a set without the table keeps the tolerance, too ({}, {:.3g} ns)", with,
                            set.ns)
-             : fmt::format("the nearest set without the table ({}) {}", with,
+             : fmt::format("a set without the table ({}) {}", with,
                            exceeded(set.error, set.margin, m.bounded));
 }
 

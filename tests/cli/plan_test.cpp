@@ -60,8 +60,8 @@ TEST(PlanCommand, HoldsOnlyWhereAVerificationIsLikelyToAgree) {
   EXPECT_EQ(o.code, 1);
   EXPECT_TRUE(o.out.starts_with("plastic: does not hold; ")) << o.out;
   EXPECT_NE(o.out.find("no set of forms keeps the tolerance with a plan's margin"), o.out.npos);
-  EXPECT_NE(o.out.find("no shader has the table of the light between facets that this keeps; the "
-                       "nearest set without"),
+  EXPECT_NE(o.out.find("no shader has the table of the light between facets that this keeps; a "
+                       "set without"),
             o.out.npos)
       << o.out;
   const auto plan = json::parse(read_bytes(f / "plan.json"));

@@ -168,8 +168,8 @@ struct Description<scene::MaterialPlan> {
         field("shipped_error_upper", if_there(&M::shipped_upper),
               "least error_upper of a compensation that shaders have, all else exact", amounts),
         field("without_table", if_there(&M::without_table),
-              "where the plan keeps the table, which no shader has: of the sets without it the "
-              "nearest to the margin, on fresh points"),
+              "where the plan keeps the table, which no shader has: of the sets without it the one "
+              "that was nearest to the margin where sets are compared, on fresh points"),
         field("reference_error", if_there(&M::reference_error),
               "quantile of two standard errors of the reference on the same points: in the "
               "differences",

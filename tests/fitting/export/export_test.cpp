@@ -103,8 +103,9 @@ TEST(ExportedFit, NamesDiffuseLightThatTheTargetTakesForTheHighlight) {
                               bound((diffuse + "ggx/smith_ggx.separable/schlick").c_str(),
                                     (kd + "alpha=0.3,f0=0.04").c_str()),
                               1e9);
-    return std::ranges::any_of(
-        e.lost, [](const auto& lost) { return lost.starts_with("Diffuse light beside"); });
+    return std::ranges::any_of(e.lost, [](const auto& lost) {
+      return lost.starts_with("The plain sum of diffuse light");
+    });
   };
   for (const auto to : {ExportTarget::gltf, ExportTarget::open_pbr, ExportTarget::standard_surface,
                         ExportTarget::usd_preview}) {

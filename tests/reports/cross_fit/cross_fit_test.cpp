@@ -436,7 +436,7 @@ TEST(CrossFit, FindingsFollowTheFigures) {
     return std::ranges::any_of(all, [&](const std::string& f) { return f.find(words) != f.npos; });
   };
   EXPECT_TRUE(findings(r).headline.starts_with(
-      "F0 of glass (IOR 1.5), fitted with Schlick's k = (r+1)²/8, is off by "))
+      "F0 of glass (IOR 1.5), fitted with Schlick's k = (r+1)²/8 to single scattering, is off by "))
       << findings(r).headline;
   EXPECT_TRUE(said("fitted with Schlick in place of exact Fresnel"));
   EXPECT_TRUE(said("gives its parameters back."));

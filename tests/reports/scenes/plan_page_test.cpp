@@ -124,7 +124,7 @@ TEST(PlanPage, SaysWhatRejectsTheNearestSetWithoutTheTable) {
            "No forms that shaders have keep the tolerance for red plastic with a plan's margin: it "
            "needs the light between facets as a table, and takes 74\u202f× the time.");
   place_of(page,
-           "The nearest set without the table (Kulla and Conty's lobe, 99 % of the points within "
+           "A set without the table (Kulla and Conty's lobe, 99 % of the points within "
            "ΔE2000 0.47) may exceed the limit at 0.79 % of all points, and 0.75 % is allowed");
   page = plan_page_html(plastic_scene(), with_table(0.001, 5.6));
   place_of(page, "0.47) differs by 5.6 at its worst point, and 3.6 is allowed");

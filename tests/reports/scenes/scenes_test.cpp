@@ -283,8 +283,8 @@ TEST(ScenesFindings, BeginWithWhatIsSavedAndWhereNothingIs) {
   ASSERT_FALSE(f.sentences.empty());
   EXPECT_EQ(f.sentences[0],
             "At no visible difference, plans save a tenth or more of a float shader's time in "
-            "2 of 3 scenes whose plans hold, and 90\u00a0% for chalk under front light. As "
-            "good as nothing can be saved for the material that needs everything under rim light.");
+            "2 of 3 scenes whose plans hold, and 90\u00a0% for chalk under front light. "
+            "Less than a tenth is saved for the material that needs everything under rim light.");
 }
 
 TEST(ScenesFindings, CountWhereATenthOrMoreIsSaved) {
