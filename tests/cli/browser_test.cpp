@@ -465,7 +465,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
            told.at(name)["text"].get<std::string>().find(words) != std::string::npos;
   };
   const std::string index = told.contains("index") ? told.at("index")["text"] : "";
-  const auto first = index.find("|n × h|²");
+  const auto first = index.find("sin² θ_h from");
   EXPECT_LT(first, index.rfind("Visible error of Fresnel approximations"))
       << "decisions stand first";
   EXPECT_NE(first, index.npos);
@@ -479,7 +479,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
          "F90) and Lambert + GTR (Schlick)."),
       at("How near, and how fast"));
   EXPECT_LT(at("Not compared: Lambert + Anisotropic GGX (Schlick)."), at("How near, and how fast"));
-  EXPECT_LT(at("It is anisotropic, and the table is not."), at("Data and models"));
+  EXPECT_LT(at("it is anisotropic, and the table is not."), at("Data and models"));
   for (const auto& r : compared_models().rows)
     EXPECT_LT(at(r.model.c_str()), at("Data and models"));
   for (const char* nothing : {"NaN", "undefined", "null", "[object"})
