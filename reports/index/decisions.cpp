@@ -376,14 +376,14 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     const auto pays = *compensated(*scattering_of(f, taken->form, f0, of_image_light), *nothing);
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), pays.from);
     d.error = delta_at_most(pays.error);
-    if (!(pays.below > pays.error))
-      d.error += " at all roughnesses";
-    else
-      d.error += fmt::format("; below that roughness, with one bounce, {}", at_most(pays.below));
+    const bool worse_below = pays.below > pays.error;
+    d.error += worse_below
+                   ? fmt::format("; below that roughness, with one bounce, {}", at_most(pays.below))
+                   : " at all roughnesses";
     d.error += fmt::format(
         " ({}one bounce{}: {})",
         taken->error > side_by_side && all.size() > 2 ? "no other form used so leaves less; " : "",
-        pays.below > pays.error ? " at all roughnesses" : "", at_most(without));
+        worse_below ? " at all roughnesses" : "", at_most(without));
     d.unless += nearer_below(f, f0, of_image_light, pays);
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
@@ -489,10 +489,10 @@ void precision(std::vector<Decision>& to, const Facts& f) {
       {"Precision: D V F NoL of GGX in half",
        fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
        "ndf.ggx",
-       fmt::format("≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}°, with "
-                   "the cosines in half as well ("
-                   "a search found no larger error, which is no proof)",
-                   percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
+       fmt::format(
+           "≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}°, with "
+           "the cosines in half as well (a search found no larger error, which is no proof)",
+           percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
        fmt::format("only D is in half: then α at least {}{}", rounded_up(*own->safe_from),

@@ -379,8 +379,7 @@ std::string index_page_html(const ReportIndex& i) {
             "lights it is random walks, whose error is added, on a ball lit from 30° and from "
             "120° to the view.",
             "Multiple scattering is compensated from the roughness on from which one bounce errs "
-            "by "
-            "more than shows side by side and the compensation is nearer, in the worse of the "
+            "by more than shows side by side and the compensation is nearer, in the worse of the "
             "lights. It has to lower the greatest ΔE2000 by 1 or more.",
             "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
             "Two forms are timed in the same process, and a cost is their difference.",

@@ -75,19 +75,19 @@ void savings(Findings& to, const ScenesRows& r) {
       no_difference, save, up_to, scene_text(most),
       none.empty() ? fmt::format("The least is saved for {}", scene_text(least))
                    : fmt::format("Less than a tenth is saved for {}", scenes_text(none))));
-  double slowest_of_all = 1;
-  for (const auto* row : slower) slowest_of_all = std::min(slowest_of_all, row->speedup_float);
+  const auto slowest_of = [](const std::vector<const SceneRow*>& rows) {
+    const auto* const row = *std::ranges::min_element(rows, {}, &SceneRow::speedup_float);
+    return rounded_up(1 / row->speedup_float);
+  };
   for (const bool by_table : {true, false}) {
     std::vector<const SceneRow*> these;
     std::ranges::copy_if(slower, std::back_inserter(these),
                          [&](const SceneRow* row) { return row->needs_table == by_table; });
     if (these.empty()) continue;
-    const auto* const slowest = *std::ranges::min_element(these, {}, &SceneRow::speedup_float);
     to.say(
         fmt::format("The plan is slower than all effects of the material for {}: it takes {}{} "
                     "times as long.",
-                    scenes_text(these), these.size() == 1 ? "" : "up to ",
-                    rounded_up(1 / slowest->speedup_float)));
+                    scenes_text(these), these.size() == 1 ? "" : "up to ", slowest_of(these)));
     to.say(fmt::format("No {} keeps the tolerance there with a plan's margin.",
                        by_table ? "set of forms without the tabulated light between facets"
                                 : "faster set of forms"));
@@ -98,9 +98,8 @@ void savings(Findings& to, const ScenesRows& r) {
       save, up_to,
       slower.empty() ? ""
                      : fmt::format(" In {} others the plan takes longer, up to {} times as long: "
-                                   "no faster set of forms "
-                                   "keeps the tolerance.",
-                                   slower.size(), rounded_up(1 / slowest_of_all)));
+                                   "no faster set of forms keeps the tolerance.",
+                                   slower.size(), slowest_of(slower)));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

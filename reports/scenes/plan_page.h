@@ -20,8 +20,8 @@ std::string not_kept(const scene::MaterialPlan&, bool has_budget, const std::str
 /// What a plan that does not hold exceeds, as of why_passed_over(): "may exceed the limit at 53 % of all points, and …".
 std::string what_is_exceeded(const scene::MaterialPlan&);
 
-/// Of a plan that keeps the table of the light between facets: a set without it, the nearest where sets are compared, and
-/// what rejects that.
+/// For a plan that keeps the table of the light between facets: the set of forms without it that was nearest when sets were
+/// compared, and why it is rejected.
 std::string without_table(const scene::MaterialPlan&, const scene::Tolerance&);
 
 }  // namespace gonio
