@@ -22,7 +22,7 @@ constexpr std::array<OtherTone, 9> tones{{{2.2, 0, 1},
                                           {1, 0, 0.5},
                                           {1, 0, 0.25}}};
 
-/// Changes all numbers; those that `room` or more is taken off are left out, as cast shadows are.
+/// Changes all numbers.  With `shadows` they stay, and those below the light of the room become negative: they are left out.
 void change(TexelSample& s, const OtherTone& tone) {
   const auto cosine = [&](std::size_t i, std::size_t t) {
     return s.of_light ? 1 : cosine_of(s, i, t);
@@ -36,8 +36,9 @@ void change(TexelSample& s, const OtherTone& tone) {
       for (std::size_t i = 0; i < s.images; ++i)
         if (const double y = double{value(i)} * cosine(i, t); y >= 0) sum += y, ++count;
       for (std::size_t i = 0; i < s.images; ++i) {
-        const double left = double{value(i)} * cosine(i, t) - tone.room * sum / count;
-        const double y = tone.shadows && left >= 0 ? double{value(i)} * cosine(i, t) : left;
+        const double light = double{value(i)} * cosine(i, t),
+                     left = light - tone.room * sum / count;
+        const double y = tone.shadows && left >= 0 ? light : left;
         value(i) = static_cast<float>(tone.scale * std::pow(pi<double>() * y, tone.power) /
                                       pi<double>() / cosine(i, t));
       }
@@ -85,7 +86,8 @@ std::optional<OtherTone> other_tone(const TexelSample& s,
   OtherTone found = tones[static_cast<std::size_t>(best - seen.begin())];
   found.ratio = best->ratio;
   if (found.room > 0) {
-    // What is taken off also leaves out what it makes negative, which by itself may be the cure.
+    // To subtract light also leaves out all values that become negative, and that may be the whole
+    // cure.
     OtherTone without = found;
     without.shadows = true;
     if (const auto same = compare(without); same.ratio < 2 * found.ratio)
