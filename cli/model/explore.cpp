@@ -72,8 +72,8 @@ Exit run(const ExploreCall& o) {
   }
   for (const auto& e : all)
     if (const auto* t = std::get_if<ExploredTable>(&e))
-      say("{}: {} values; resampled for the page, typically off by ×/÷ {:.3f}; {:.0f} % of the "
-          "values lie on its grid\n",
+      say("{}: {} values; resampled for the page, typically off by ×/÷ {:.3f}; its grid covers "
+          "{:.0f} % of the values\n",
           t->name, t->values, t->loss, 100 * t->covered);
   say("{}: open it in a browser\n", o.output);
   return Exit::done;

@@ -187,9 +187,10 @@ bool add_models(Steps& steps,
     if (nearest == left.end() || std::isnan(*nearest)) return false;
     otherwise =
         *nearest < little * here
-            ? fmt::format("--model {} misses, too, but less: by {} instead of {} on a sample",
-                          others[static_cast<std::size_t>(nearest - left.begin())],
-                          typical_factor(*nearest), typical_factor(here))
+            ? fmt::format(
+                  "--model {} misses, too, but less: by {} instead of {} on a part of the table",
+                  others[static_cast<std::size_t>(nearest - left.begin())],
+                  typical_factor(*nearest), typical_factor(here))
             : fmt::format("none of {} other models is clearly nearer; --models all compares more",
                           left.size());
     return false;
@@ -201,9 +202,10 @@ bool add_models(Steps& steps,
   const auto simplest = std::ranges::find(found, less, [](const auto& f) { return f.second; });
   if (simplest != found.end() && simplest->first <= as_well * found[0].first) found = {*simplest};
   for (std::size_t k = 0; k < std::min(few, found.size()); ++k)
-    steps.add_model(found[k].second,
-                    fmt::format("is typically off by a factor of {} instead of {} on a sample",
-                                typical_factor(found[k].first), typical_factor(here)));
+    steps.add_model(
+        found[k].second,
+        fmt::format("is typically off by a factor of {} instead of {} on a part of the table",
+                    typical_factor(found[k].first), typical_factor(here)));
   return true;
 }
 

@@ -78,7 +78,8 @@ struct Description<CostRow> {
               "CIEDE2000 of gold in even light, at most"),
         field("bytes", "", &R::bytes, "of tables"),
         field("ops_block", "", block_operations,
-              "only of the parameters: once per block, and per sample where they vary")};
+              "only of the parameters: once per block, and per sample where they vary"),
+        field("ns_each", "ns", &R::each, "time in each process, in their order")};
   }
   template <std::size_t... K>
   static constexpr auto operations(std::index_sequence<K...>) {

@@ -169,7 +169,7 @@ void of_single_lights(Findings& to, const EnergyRows& r) {
       }
     to.say(fmt::format(
         "Under the worse of a front and a rim light, white metal of F0 = {:g} with {} is nearer "
-        "to all bounces than with nothing, by more than the walks' error, {}.",
+        "to all bounces than with nothing, by more than twice the walks' error, {}.",
         metal, w.name,
         *from == way->roughness.front() ? std::string("at every roughness looked at")
                                         : fmt::format("from roughness {:g} on", *from)));

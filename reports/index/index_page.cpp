@@ -335,8 +335,9 @@ std::string index_page_html(const ReportIndex& i) {
     out.sections.push_back({"What masking's accuracy costs",
                             "Error of G₂ against height-correlated Smith, over the time of a "
                             "sample. The dashed line joins the forms that no other beats in "
-                            "both; two times count as equal if they vary by more than their "
-                            "difference. The error is an RMS over a grid of directions and "
+                            "both. One form counts as faster than another if every process that "
+                            "measured both found it so; on the line stands none that may be as "
+                            "slow as a more exact one. The error is an RMS over a grid of directions and "
                             "widths. The masking row above averages evenly over both cosines and "
                             "roughness, so its figures differ.",
                             {page::Shown{i.front.figures[0].family, {}, 440}},

@@ -7,6 +7,7 @@
 #include "base/text.h"
 #include "reports/page/assets.h"
 #include "reports/page/page.h"
+#include "reports/picture/indices.h"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -14,11 +15,11 @@
 namespace gonio::page {
 namespace {
 
-/// Text with its code set as such.
+/// Text with its code set as such, and indices of angles set low.
 std::string prose(std::string_view text) {
   std::string out;
   bool code = false, bold = false;
-  const auto escaped = markup_text(text);
+  const auto escaped = with_indices(markup_text(text), "<sub>", "</sub>");
   for (std::size_t i = 0; i < escaped.size(); ++i)
     if (escaped[i] == '`') {
       out += (code = !code) ? "<code>" : "</code>";

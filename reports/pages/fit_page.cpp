@@ -138,8 +138,8 @@ Points warnings(const FitDocument& d,
   for (const auto& r : rows)
     if (r.status == upper_limit || r.status == lower_limit) limited[r.reason].push_back(r.label);
   for (const auto& [reason, who] : limited)
-    warn("Only a limit (95 %):",
-         fmt::format("{}{}{}.", fmt::join(who, ", "), reason.empty() ? "" : ", since ", reason));
+    warn("Only a limit (95 %):", fmt::format("{}.{}", fmt::join(who, ", "),
+                                             reason.empty() ? "" : " " + capital(reason) + "."));
   std::vector<std::string> ends;
   for (const auto& r : rows)
     if (r.status == at_bound) ends.push_back(fmt::format("{} is {}", r.label, plain(r.value)));
@@ -287,8 +287,11 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
   Section out{
       "Parameters",
       fmt::format(
-          "Values are written to the second digit of their standard error. Standard errors: {}{}.",
-          d.intervals, d.clusters > 0 ? fmt::format(" ({} clusters)", count_text(d.clusters)) : ""),
+          "Values are written to the second digit of their standard error. Standard errors: "
+          "{}.{}{}",
+          d.intervals,
+          d.clusters > 0 ? fmt::format(" Incident angles: {}.", count_text(d.clusters)) : "",
+          d.misfit.told ? " They are of noise; the intervals allow for the misfit, too." : ""),
       {std::move(t)}};
   out.parts.emplace_back(Prose{
       fmt::format(
@@ -340,16 +343,17 @@ std::string fit_page_html(const FitDocument& d,
   Page out{
       "", "fit", d.input_path,
       fmt::format("{} {} {}", model_names(std::array{d.model})[0], words_of_verdict.title, file)};
-  out.first.emplace_back(
-      Prose{fmt::format("`{}` {} the {} values used of `{}`{} a typical factor of **{}** (log RMS "
-                        "{}); the fit {}.{}",
-                        d.model, words_of_verdict.does, count_text(d.values_used), file,
-                        words_of_verdict.to, factor_text(log_rms), significant(log_rms),
-                        d.solver.termination == "converged" ? "converged" : "**did not converge**",
-                        !p.has_lobe && !parse_model(d.model).lobes.empty()
-                            ? " Numbers and pictures are of the fit without the lobe."
-                            : ""),
-            "verdict"});
+  out.first.emplace_back(Prose{
+      fmt::format(
+          "`{}` {} the {} values that were used from `{}`{} a typical factor of **{}** (log RMS "
+          "{}); the fit {}.{}",
+          d.model, words_of_verdict.does, count_text(d.values_used), file, words_of_verdict.to,
+          factor_text(log_rms), significant(log_rms),
+          d.solver.termination == "converged" ? "converged" : "**did not converge**",
+          !p.has_lobe && !parse_model(d.model).lobes.empty()
+              ? " Numbers and pictures are of the fit without the lobe."
+              : ""),
+      "verdict"});
   if (auto all = warnings(d, t, h, rows); !all.each.empty()) out.first.emplace_back(std::move(all));
   if (!d.next.empty()) {
     Points next;

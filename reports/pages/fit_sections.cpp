@@ -117,7 +117,9 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
     pictures.maps.push_back(std::move(map));
   }
   c.slots.push_back(std::move(slot));
-  Group maps{"", {std::move(c), Prose{map_words(m, limit), "small muted"}}}, bands{"bands", {}};
+  Group maps{"", {std::move(c), Prose{map_words(m, limit), "small muted"}}},
+      beside{"columns map", {}}, bands{"bands", {}};
+  beside.parts.emplace_back(std::move(maps));
   double most = 1e-12;
   for (const auto& b : d.residuals.bands)
     if (b.values > 0 && known(b.log_rms)) most = std::max(most, b.log_rms);
@@ -146,14 +148,15 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
     const auto [low, high] = std::ranges::minmax(m.measured);
     f.curves.push_back({"equal", {low, high}, {low, high}});
     f.curves.back().dashed = true;
-    bands.parts.emplace_back(Shown{f.family, f.choices, 260});
+    beside.parts.emplace_back(Shown{f.family, f.choices, 260});
     pictures.figures.push_back(std::move(f));
   }
   return {
       "Where the model is off",
       "Each cell compares model and data by their ratio, over all channels and all valid positive "
       "values in it. Blue: the model is too dark; orange: too bright.",
-      {Group{"columns map", {std::move(maps), std::move(bands)}}}};
+      {std::move(beside), std::move(bands),
+       Prose{"The upper end of a range of angles belongs to it.", "small muted"}}};
 }
 
 // --- Directional albedo -----------------------------------------------------------------------
@@ -179,7 +182,7 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
     }
   Figure f = make_figure("albedo");
   f.title = "Directional albedo";
-  f.x = {"θ_i [°], incident angle", false, 0, 90};
+  f.x = {"θ_i [°], incident angle", false, -2, 90};  // a point at 0 is seen whole
   f.y = {"share of the light that is reflected"};
   const auto column = [&](const std::vector<std::vector<double>>& of, std::size_t c) {
     std::vector<double> out;
@@ -221,15 +224,15 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
   const bool has_error = data != h.albedo.end() && data->error > 0;
   std::string words = fmt::format(
-      "The fitted model reflects most at θ_i {}, of the angles shown: {} of the light{}{}.{}",
-      degrees_text(p.theta_i_deg[at]), share(top),
+      "{}he fitted model reflects most at θ_i {}, of the angles shown: {} of the light{}.{}",
+      several ? "In channel " + d.channels[channel] + " t" : "T", degrees_text(p.theta_i_deg[at]),
+      share(top),
       known(p.data_albedo[at][channel])
           ? fmt::format("; the table reflects {}{}", share(p.data_albedo[at][channel]),
                         has_error ? fmt::format(" (error of this integral: at most {})",
                                                 significant(data->error, 2))
                                   : "")
           : "",
-      several ? ", channel " + d.channels[channel] : "",
       above(top) ? " Above 1 more light leaves than arrives: no surface "
                    "does that."
                  : "");
@@ -264,14 +267,14 @@ Section search(const FitDocument& d, Pictures& pictures) {
     return {title, "No width, exponent or index is free: nothing was searched.", {}};
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
-      "For each of {} of {}, the other parameters were fitted anew to a part of the table. The "
-      "same was done for the best few on the whole table. {} is better than the fit above: their "
-      "lowest "
-      "cost (half the sum of squares) is {}, that of the fit {}.{} This is a search, not a proof.",
+      "For each of {} of {}, the other parameters were fitted anew to a part of the table; for the "
+      "best few of these, to the whole table. {} fits better than this page's parameters: the "
+      "lowest cost (half the sum of squares) is {}, that of the fit {}.{} This is a search, not a "
+      "proof.",
       many(c.cells.size(), c.parameters.size() == 1 ? "value" : "pair"),
       fmt::join(c.parameters, " and "), lies ? "None" : "One", significant(c.lowest, 6),
       significant(d.cost, 6),
-      c.moves > 0 ? fmt::format(" The fit above began anew from a better one {}.",
+      c.moves > 0 ? fmt::format(" The fit began anew from a better one {}.",
                                 many(static_cast<std::size_t>(c.moves), "time"))
                   : "");
   double least = c.thinned_cost;
@@ -301,7 +304,7 @@ Section search(const FitDocument& d, Pictures& pictures) {
     f.title = "Least cost at each " + c.parameters[0];
     f.note = note;
     f.x = {c.parameters[0], places[0][0] > 0};
-    f.y = {"least cost, relative to the lowest", true};
+    f.y = {"least cost, relative to the lowest known", true};
     FigureCurve curve{"least cost", {}, {}, FigureCurve::Kind::both};
     for (const auto& cell : c.cells) {
       curve.x.push_back(cell.at[0]);

@@ -71,14 +71,17 @@ std::string answer(const Lights& shown, const Spheres& s, std::string_view name)
                           "95\u202f% within {}.",
                           w.light, delta_e_text(most.median), delta_e_text(tail))
                     : fmt::format(
-                          "Half of the pixels are within ΔE2000 {} under {}, where most are off. "
-                          "95\u202f% are within {} under {}, where the largest errors are.",
-                          delta_e_text(most.median), w.light, delta_e_text(tail), widest.light);
+                          "The median is largest under {}: half of the pixels are within ΔE2000 "
+                          "{}. The largest errors are under {}: 95\u202f% of the pixels are within "
+                          "{}.",
+                          w.light, delta_e_text(most.median), widest.light, delta_e_text(tail));
   const double apart = widest.models[best].spacing_p95;
   const auto spacing =
       apart > 0.5 * tail
-          ? fmt::format(" Under {}, the spacing of the table's samples makes {} of these {}.",
-                        widest.light, delta_e_text(apart), delta_e_text(tail))
+          ? fmt::format(
+                " Under {}, a model without any misfit would reach {}, from the spacing of the "
+                "table's samples.",
+                widest.light, delta_e_text(apart))
           : std::string();
   if (most.median > just_seen && most.spacing_median > 0.5 * most.median)
     return fmt::format(
@@ -162,7 +165,7 @@ std::string how(const Spheres& s, bool has_columns) {
       "the sphere. Flash: one, 10° above the viewer. The table's 99th percentile of "
       "luminance under each light is shown as white. {}{}{}{}",
       has_nearest(s)
-          ? fmt::format("Each pixel shows the table's nearest sample, whose light and viewer are "
+          ? fmt::format("Each pixel shows the table's nearest sample, if its light and viewer are "
                         "within {}° of the pixel's. Samples mirrored at the plane of incidence, "
                         "or with light and view exchanged, also count.",
                         Spheres::reach_deg)

@@ -200,8 +200,8 @@ std::vector<std::string> table_warnings(const gonio::Table& t,
                      });
   if (h.peak && h.peak->limit == PeakLimit::samples && !known)
     warn("Peak not resolved:",
-         fmt::format("{} samples within its half width of {}. It may be narrower.",
-                     significant(h.peak->samples_within, 2),
+         fmt::format("{} within its half width of {}. It may be narrower.",
+                     many(static_cast<std::size_t>(std::lround(h.peak->samples_within)), "sample"),
                      degrees_text(h.peak->half_width_deg, 2)));
   if (h.peak && h.peak->limit == PeakLimit::bins)
     warn("Peak limited by the bins:",
@@ -335,7 +335,11 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
   }
   if (t.truth) {
     beside.parts.emplace_back(Subtitle{"Truth"});
+    std::vector<std::string> with;
+    for (const auto& [name, values] : t.truth->parameters)
+      with.push_back(fmt::format("{} {}", name, fmt::join(values, ", ")));
     beside.parts.emplace_back(Pairs{{{"made by gonio from", "`" + t.truth->model + "`"},
+                                     {"with", fmt::to_string(fmt::join(with, "; "))},
                                      {"noise", percent(t.truth->noise)},
                                      {"floor", significant(t.truth->floor) + " 1/sr"},
                                      {"outliers", percent(t.truth->outliers)},

@@ -1,5 +1,6 @@
 // Curves and points as SVG.
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -198,15 +199,17 @@ class CurveDrawing {
     struct Area {
       double left, top, right, bottom;
     };
-    std::vector<Area> taken;
+    std::vector<Area> taken, bars;  // bars: of errors, crossed only where nothing else is free
     std::vector<Point> points;
     const auto meet = [](const Area& a, const Area& b) {
       return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
     };
     // A name beside another point would be read as that one's.
-    const auto free = [&](const Area& b, const Point& own) {
+    const auto free = [&](const Area& b, const Point& own, bool may_cross_bars) {
       return b.left > 0 && b.right < width && b.top > -6 && b.bottom < box_.height &&
              std::ranges::none_of(taken, [&](const Area& t) { return meet(b, t); }) &&
+             (may_cross_bars ||
+              std::ranges::none_of(bars, [&](const Area& t) { return meet(b, t); })) &&
              std::ranges::none_of(points, [&](const Point& p) {
                const bool is_own = p.x == own.x && p.y == own.y;
                const double beside = is_own ? 3 : std::clamp((b.right - b.left) / 2, 3.0, 10.0);
@@ -232,6 +235,9 @@ class CurveDrawing {
         if (drawable(c, i)) {
           of.emplace_back(&c, i);
           points.push_back({x_at(c.x[i]), y_at(c.y[i])});
+          if (i < c.x_error.size() && c.x_error[i] > 0)
+            bars.push_back({x_or_left(c.x[i] - c.x_error[i]) * width / box_.width,
+                            points.back().y - 2, x_at(c.x[i] + c.x_error[i]), points.back().y + 2});
         }
     const auto is_on_line = [&](const auto& at) {
       return is_on_dashed_line(at.first->x[at.second], at.first->y[at.second]);
@@ -250,26 +256,36 @@ class CurveDrawing {
     std::string out = fmt::format(R"(<g class="in {}" font-size="11">)", look);
     for (const auto& [c, i] : of) {
       const double x = x_at(c->x[i]), y = y_at(c->y[i]), w = svg::text_width(c->labels[i], 11);
-      for (const auto& [right, down] : {std::pair(5.0, -16.0),
-                                        {-5 - w, -16},
-                                        {5, 3},
-                                        {-5 - w, 3},
-                                        {7, -6},
-                                        {-7 - w, -6},
-                                        {-w / 2, -18},
-                                        {-w / 2, 5},
-                                        {5, 9},
-                                        {-5 - w, 9},
-                                        {5, -23},
-                                        {-5 - w, -23}}) {
-        const Area b{x + right, y + down, x + right + w, y + down + 13};
-        if (!free(b, {x, y})) continue;
-        taken.push_back(b);
-        out += box_.text(x * box_.width / width, b.bottom - 3, c->labels[i],
-                         fmt::format(R"( dx="{}"{})", number(right),
-                                     is_shown(std::pair(c, i)) ? "" : R"( class="more")"));
-        break;
-      }
+      const std::array<Point, 12> places{{{5, -16},
+                                          {-5 - w, -16},
+                                          {5, 3},
+                                          {-5 - w, 3},
+                                          {7, -6},
+                                          {-7 - w, -6},
+                                          {-w / 2, -18},
+                                          {-w / 2, 5},
+                                          {5, 9},
+                                          {-5 - w, 9},
+                                          {5, -23},
+                                          {-5 - w, -23}}};
+      const auto at = [&](const Point& by) {
+        return Area{x + by.x, y + by.y, x + by.x + w, y + by.y + 13};
+      };
+      const Point* place = nullptr;
+      for (const bool may_cross_bars : {false, true})
+        if (!place)
+          if (const auto* const found =
+                  std::ranges::find_if(places,
+                                       [&](const Point& by) {
+                                         return free(at(by), {x, y}, may_cross_bars);
+                                       });
+              found != places.end())
+            place = found;
+      if (!place) continue;
+      taken.push_back(at(*place));
+      out += box_.text(x * box_.width / width, at(*place).bottom - 3, c->labels[i],
+                       fmt::format(R"( dx="{}"{})", number(place->x),
+                                   is_shown(std::pair(c, i)) ? "" : R"( class="more")"));
     }
     return out + "</g>";
   }

@@ -20,7 +20,7 @@ struct TimedError {
       each{};  ///< times in each of the processes that measured all rivals, in order
 };
 
-/// Place of a form among its rivals.
+/// Place of a form among its rivals.  Errors within 1e-4 of each other are as exact.
 struct FrontPlace {
   /// No rival that is at least as exact is faster by a difference that survives (timing.h).
   bool front = true;

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "reports/picture/indices.h"
 
 #include <fmt/format.h>
 
@@ -17,6 +18,12 @@ std::string tenths(long n) {
   if (n >= 10 || n == 0) s += std::to_string(n / 10);
   if (n % 10 != 0) s += "." + std::to_string(n % 10);
   return s;
+}
+
+/// Marks of a text; what follows an index stands on the line again.
+std::string low_indices(std::string_view text) {
+  return with_indices(markup_text(text), R"(<tspan dy="3" font-size="75%">)",
+                      "</tspan><tspan dy=\"-3\">\u200b</tspan>");
 }
 
 }  // namespace
@@ -75,7 +82,7 @@ std::string Box::x(double x, std::string_view attribute) const {
 }
 std::string Box::text(double x, double y, std::string_view what, std::string_view more) const {
   return fmt::format(R"(<text{} y="{}"{}>{}</text>)", this->x(x), number(y), more,
-                     markup_text(what));
+                     low_indices(what));
 }
 std::string Box::inside(std::string_view marks, std::string_view more) const {
   return fmt::format(
@@ -112,7 +119,7 @@ std::string axis_names(
   for (const auto& line : wrapped(y, std::max(120.0, box.height + 20))) {
     out += fmt::format(
         R"x(<text text-anchor="middle" transform="translate({} {}) rotate(-90)">{}</text>)x",
-        number(at), number(box.height / 2), markup_text(line));
+        number(at), number(box.height / 2), low_indices(line));
     at += 13;
   }
   if (!box.page) out += box.text(box.width / 2, box.height + below, x, R"( text-anchor="middle")");
@@ -125,7 +132,7 @@ Heading heading(std::string_view title, std::string_view note, double width) {
     for (const auto& l : wrapped(what, width - 32, size)) {
       h.height += step;
       h.marks += fmt::format(R"(<text x="16" y="{}"{}>{}</text>)", number(h.height - 4), look,
-                             markup_text(l));
+                             low_indices(l));
     }
   };
   put(title, R"( class="in" font-size="15" font-weight="600")", 15, 19);

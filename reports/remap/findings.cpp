@@ -48,7 +48,7 @@ void nearest_form(Findings& to, const RemapRows& r) {
   if (!nearest) return;
   const auto off = overall_rms(r, form_id::direct_k, form_id::smith);
   to.headline = fmt::format(
-      "{} is the cheap masking nearest to height-correlated Smith: its G2 is "
+      "{} is the cheap masking nearest to height-correlated Smith: its G₂ is "
       "off by {:.2g}, RMS over directions and roughness{}.",
       name_of_form(nearest->form), least,
       off ? fmt::format("; that of Schlick's k = (r+1)²/8 by {:.2g}", *off) : "");

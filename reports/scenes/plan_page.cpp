@@ -332,7 +332,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
     s.parts.emplace_back(front);
     if (m.holds && !m.only_unseen && (!has_plan || (has_faster && !p.budget))) {
       const auto which =
-          has_plan ? std::string("A faster set keeps the tolerance, too.")
+          has_plan ? std::string("A set that took less time keeps the tolerance, too.")
                    : fmt::format("The plan, at {} ns, is none of them.", significant(m.ns));
       s.parts.emplace_back(Prose{
           by_time
@@ -406,15 +406,14 @@ std::string what_is_exceeded(const scene::MaterialPlan& m) {
 
 std::string without_table(const scene::MaterialPlan& m, const scene::Tolerance& t) {
   const auto& set = *m.without_table;
-  const auto with =
-      fmt::format("{}, {} % of the points within {}{}",
-                  scene::compensation_in_words(set.forms.name(scene::Effect::compensation)),
+  const auto forms =
+      fmt::format("Its forms: {}; {} % of the points are within {}{}", page::kept_words(set.forms),
                   in_percent(t.quantile), unit_of(t), rounded_up(set.error.upper));
   return set.keeps_margin()
-             ? fmt::format("a set without the table keeps the tolerance, too ({}, {:.3g} ns)", with,
-                           set.ns)
-             : fmt::format("a set without the table ({}) {}", with,
-                           exceeded(set.error, set.margin, m.bounded));
+             ? fmt::format("a set without the table keeps the tolerance, too, in {:.3g} ns. {}",
+                           set.ns, forms)
+             : fmt::format("a set without the table {}. {}",
+                           exceeded(set.error, set.margin, m.bounded), forms);
 }
 
 std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {

@@ -71,7 +71,7 @@ std::string triple(const ScenePicture& p, const scene::Tolerance& t) {
     return fmt::format("{} under {}, {}", p.material, p.light, how);
   };
   return sphere_figure(
-      fmt::format("{}, ΔE of a pixel up to {}", capital(p.light), delta(p.worst)), p.pixels,
+      fmt::format("{}, ΔE of a pixel up to {}", capital(p.light), rounded_up(p.worst)), p.pixels,
       {{p.everything, of("everything on")},
        {p.planned, of("as planned")},
        {difference_png(p.difference, p.pixels, scenes::difference_scale(t)), of("difference")}});
@@ -247,7 +247,7 @@ page::Page report_page(const ScenesReport& r) {
             "difference has what the table may be off by added. Rows of one effect leave it out.",
             "Times are of column kernels, composed on both sides: nothing is fused for the "
             "plan only. Those of a scene's row and of its list of sets were measured one after the "
-            "other, and on a busy machine differ by up to a half.",
+            "other, and on a busy machine one may be twice the other.",
             "A plan need not be in its list: times within twice their spreads count as the same, "
             "and among such sets the plan takes the fewest operations.",
             fmt::format("A plan is chosen on one set of points, checked on a second, and "

@@ -465,7 +465,7 @@ TEST(Browser, ShowsEveryPageWholeAndTellsWhatIsUnderThePointer) {
            told.at(name)["text"].get<std::string>().find(words) != std::string::npos;
   };
   const std::string index = told.contains("index") ? told.at("index")["text"] : "";
-  const auto first = index.find("sin² θ_h from");
+  const auto first = index.find("sin² θh from");
   EXPECT_LT(first, index.rfind("Visible error of Fresnel approximations"))
       << "decisions stand first";
   EXPECT_NE(first, index.npos);

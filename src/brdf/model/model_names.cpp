@@ -24,8 +24,8 @@ constexpr std::pair<std::string_view, std::string_view> words[] = {
     {"fresnel.schlick.weighted", "weighted Schlick"},
     {"fresnel.dielectric", "dielectric"},
     {"fresnel.conductor", "conductor"},
-    {"diffuse.lambert.coupled", "coupled Lambert"},
-    {"diffuse.disney.coupled", "coupled Disney's diffuse"}};
+    {"diffuse.lambert.coupled", "Lambert (coupled)"},
+    {"diffuse.disney.coupled", "Disney's diffuse (coupled)"}};
 
 /// Title without what follows in brackets or after a comma.
 std::string word_of(std::size_t term) {

@@ -350,24 +350,28 @@ class MaterialPlanner {
         p.shipped_upper = std::min(p.shipped_upper, judged(with(Effect::compensation, form)).upper);
   }
   /// On as many fresh points as a plan: of the sets without the table the cheapest that keeps the margin where sets are compared; if
-  /// there it does not, or none does, the one that takes least of it, those among them that differ from all effects only by the table.
-  std::optional<JudgedSet> nearest_without_table() {
+  /// there it does not, or none does, the one that takes least of it, those among them that differ from the plan, or from all effects,
+  /// only by the table.
+  std::optional<JudgedSet> nearest_without_table(const MaterialPlan& p) {
     const auto& offered = look_.offer(Effect::compensation).forms;
     if (offered.back() != Form::tabulated) return {};
     std::vector<Candidate> all;
     std::ranges::copy_if(candidates_, std::back_inserter(all), [](const Candidate& c) {
       return c.forms[Effect::compensation] != Form::tabulated;
     });
-    for (const auto form : offered) {
-      if (form == Form::tabulated) continue;
-      Candidate& c = all.emplace_back();
-      c.forms = in_float(look_, look_.structural());
-      c.forms[Effect::compensation] = form;
-      c.forms = plain(c.forms);
-      const Surface s = look_.surface(c.forms);
-      c.error = judged(s);
-      c.ops = operations_of(s, reference_.points);
-    }
+    std::vector<Forms> with_table{in_float(look_, look_.structural())};
+    if (!scene_.budget_ns) with_table.push_back(p.forms);
+    for (const auto& forms : with_table)
+      for (const auto form : offered) {
+        if (form == Form::tabulated) continue;
+        Candidate& c = all.emplace_back();
+        c.forms = forms;
+        c.forms[Effect::compensation] = form;
+        c.forms = plain(c.forms);
+        const Surface s = look_.surface(c.forms);
+        c.error = judged(s);
+        c.ops = operations_of(s, reference_.points);
+      }
     const auto taken = [&](const Candidate& c) {
       Judgement j = c.error;
       if (c.failed) j.worst = c.failed->worst, j.bound = c.failed->exceeding_bound;
@@ -401,7 +405,7 @@ class MaterialPlanner {
     p.table_ops_saved = table_ops_saved_;
     compare_shipped(p);
     if (!scene_.budget_ns) choose(p);
-    if (scene_.budget_ns || p.needs_table()) p.without_table = nearest_without_table();
+    if (scene_.budget_ns || p.needs_table()) p.without_table = nearest_without_table(p);
     front(p);
     if (scene_.budget_ns) p.sets = std::move(candidates_);
     return p;

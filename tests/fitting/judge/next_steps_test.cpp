@@ -211,7 +211,8 @@ TEST(NextSteps, OfModelsThatTakeUpLittleOfAMisfitNameTheNearestAsOneThatMissesTo
   };
   const auto less = steps(0.28);  // a fifth of the square
   ASSERT_EQ(less.size(), 1U);
-  EXPECT_TRUE(less[0].ends_with(" misses, too, but less: by 1.32 instead of 1.36 on a sample"))
+  EXPECT_TRUE(
+      less[0].ends_with(" misses, too, but less: by 1.32 instead of 1.36 on a part of the table"))
       << less[0];
   d.misfit.size = 0.1;
   const auto unseen = steps(0.302);  // more than half of the misfit's square, which nobody sees
@@ -221,8 +222,8 @@ TEST(NextSteps, OfModelsThatTakeUpLittleOfAMisfitNameTheNearestAsOneThatMissesTo
   d.misfit.size = 0.3;
   const auto named = steps(0.2);
   EXPECT_EQ(named.size(), 3U);
-  EXPECT_TRUE(
-      named[0].ends_with(" is typically off by a factor of 1.22 instead of 1.36 on a sample"))
+  EXPECT_TRUE(named[0].ends_with(
+      " is typically off by a factor of 1.22 instead of 1.36 on a part of the table"))
       << named[0];
 }
 

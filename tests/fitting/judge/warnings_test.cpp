@@ -71,18 +71,17 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   m.follows = {"theta_h", "theta_d", "grazing angles"};
   m.worst_cell = {10, 22.5, 60, 75, 40, -0.3};
   EXPECT_EQ(misfit_in_words(m, true),
-            (std::vector<std::string>{
-                "beyond noise the model is off by a factor of 1.088, "
-                "varying with every angle; intervals are widened",
-                "averaged over regions, the model is furthest off near theta_h 16°, "
-                "theta_d 68°: too dark by a factor of 1.43"}));
+            (std::vector<std::string>{"beyond noise the model is off by a factor of 1.088, "
+                                      "varying with every angle; intervals are widened",
+                                      "the model is furthest off in the region around theta_h 16°, "
+                                      "theta_d 68°: on average too dark by a factor of 1.43"}));
   m.follows = {"theta_h", "grazing angles"};
   EXPECT_NE(misfit_in_words(m, true)[0].find("varying with theta_h and at grazing angles;"),
             std::string::npos);
   m.worst_cell->difference = 2.4;
-  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": too bright by a factor of 3.4"));
+  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": on average too bright by a factor of 3.4"));
   m.worst_cell->difference = 1.0 / 150 - 1;
-  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": too dark by a factor of 150"));
+  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": on average too dark by a factor of 150"));
   m.told = false;
   EXPECT_TRUE(misfit_in_words(m, true).empty());
 }

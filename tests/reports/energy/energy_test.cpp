@@ -371,8 +371,8 @@ TEST(EnergyReport, RanksCompensationsUnderASingleLightByWhatTheyLeaveWhereTheyPa
   };
   EXPECT_TRUE(
       said("Under the worse of a front and a rim light, white metal of F0 = 0.9 with Kulla and "
-           "Conty is nearer to all bounces than with nothing, by more than the walks' error, from "
-           "roughness 0.45 on."));
+           "Conty is nearer to all bounces than with nothing, by more than twice the walks' error, "
+           "from roughness 0.45 on."));
   EXPECT_TRUE(said("There it leaves ΔE2000 5.9 at most, where one bounce leaves up to 29."))
       << "not the 13.6 of a roughness where it is further off";
   EXPECT_TRUE(said("There it leaves ΔE2000 12 at most, where one bounce leaves up to 29."))

@@ -20,7 +20,7 @@ TEST(ModelNames, SayDiffuseDistributionAndFresnel) {
       names({"lambert+ggx/smith_ggx.correlated/schlick", "lambert",
              "disney.coupled+ggx/smith_ggx.correlated/dielectric",
              "eon+beckmann/smith_beckmann.correlated/f82"}),
-      (Names{"Lambert + GGX (Schlick)", "Lambert", "coupled Disney's diffuse + GGX (dielectric)",
+      (Names{"Lambert + GGX (Schlick)", "Lambert", "Disney's diffuse (coupled) + GGX (dielectric)",
              "Energy-preserving Oren–Nayar + Beckmann (F82-tint: Schlick's with an edge tint "
              "for metals)"}));
 }

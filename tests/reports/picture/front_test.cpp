@@ -34,6 +34,15 @@ TEST(FrontPlace, IsATieForBothOfThoseThatAreAsExactAndTakeAsLong) {
   EXPECT_FALSE(place(b, a).on_line);
 }
 
+TEST(FrontPlace, TakesErrorsThatDifferByRoundingForTheSame) {
+  const auto a = form(1, 0.2, 0.0600771), b = form(1.1, 0.2, 0.0600770);
+  EXPECT_TRUE(place(a, b).tie);
+  EXPECT_TRUE(place(b, a).tie);
+  EXPECT_TRUE(place(a, b).on_line);
+  EXPECT_FALSE(place(b, a).on_line) << "as exact, and slower";
+  EXPECT_FALSE(place(form(2, 0.1, 0.0600770), form(1, 0.1, 0.0600771)).front);
+}
+
 TEST(FrontPlace, IsOnTheLineWhereNoneAsExactIsAsFast) {
   EXPECT_TRUE(place(form(1, 0.1, 0.5), form(2, 0.1, 0.5)).on_line);
   EXPECT_FALSE(place(form(2, 0.1, 0.5), form(1, 0.1, 0.5)).on_line) << "it is beaten";
