@@ -188,7 +188,7 @@ void gamma_of_both(Findings& to, const CrossFitRows& r) {
 /// Words for where a material looks rougher than it is, or smoother.
 std::string looks(const Shift& s) {
   return fmt::format("{} by up to {} ({} at roughness {:g})", s.by > 0 ? "rougher" : "smoother",
-                     fmt::format("{:.2g}", std::abs(s.by)), s.in->material, s.in->roughness);
+                     rounded_up(std::abs(s.by)), s.in->material, s.in->roughness);
 }
 
 void lost_energy(Findings& to, const CrossFitRows& r) {

@@ -85,8 +85,10 @@ Section looks(const DiffuseRows& all, const Pictures& p) {
       "same roughness on every form; its reference is EON below that lobe, coupled by albedos "
       "as in Kelemen and Szirmay-Kalos (2001), which loses and makes no light. Every form gives "
       "back as much on average as the reference: its kd is so chosen." +
-          (dark.empty() ? std::string()
-                        : fmt::format(" On chalk even kd = 1 gives back less: {}.", dark)),
+          (dark.empty()
+               ? std::string()
+               : fmt::format(" On chalk even kd = 1 gives back less than 99\u202f% of that: {}.",
+                             dark)),
       {c}};
 }
 

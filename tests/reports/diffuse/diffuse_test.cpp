@@ -140,7 +140,7 @@ TEST(DiffuseReport, SaysWhereNoKdGivesBackWhatTheReferenceDoes) {
   }
   EXPECT_NEAR(oren_nayar, 0.712 / 0.825, 0.005);
   const auto page = page::page_html(report_page(report()), report().pictures);
-  EXPECT_NE(page.find("On chalk even kd = 1 gives back less: "), page.npos);
+  EXPECT_NE(page.find("On chalk even kd = 1 gives back less than 99\u202f% of that: "), page.npos);
 }
 
 TEST(DiffuseReport, FactsAreThoseOfTheRows) {

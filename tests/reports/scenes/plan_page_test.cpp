@@ -126,7 +126,7 @@ TEST(PlanPage, SaysWhatRejectsTheNearestSetWithoutTheTable) {
   place_of(page,
            "A set without the table may exceed the limit at 0.79 % of all points, and 0.75 % is "
            "allowed");
-  place_of(page, "light between facets (kulla conty)");
+  place_of(page, "(kulla conty)");
   place_of(page, "; 99 % of the points are within ΔE2000 0.47.");
   page = plan_page_html(plastic_scene(), with_table(0.001, 5.6));
   place_of(page, "A set without the table differs by 5.6 at its worst point, and 3.6 is allowed");
