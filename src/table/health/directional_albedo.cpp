@@ -18,6 +18,7 @@
 #include "table/format/rgl/function.h"
 #include "table/format/utia.h"
 #include "table/grid_cell.h"
+#include "table/health/around_one_light.h"
 #include "table/health/key_counts.h"
 
 #include <fmt/format.h>
@@ -123,11 +124,6 @@ AlbedoSample integrate(double theta_i_deg, std::size_t channels, const Between& 
   return a;
 }
 
-/// True of values that count in an integral.  Noise goes both ways: without its negative half the rest would be too bright.
-bool counts(Mask m, bool noisy) {
-  return m == Mask::valid || (m == Mask::negative && noisy);
-}
-
 /// Sum over the patches that a list's values are means of, exact, from the incident patch nearest to θ_i.
 AlbedoSample sum_of_patches(const Table& t, double theta_i_deg) {
   const DirectionList& l = *t.list();
@@ -142,7 +138,7 @@ AlbedoSample sum_of_patches(const Table& t, double theta_i_deg) {
     double sum = 0, weight = 0;
     for (std::size_t i = 0; i < t.size(); ++i) {
       if (l.theta_i_deg[i] != l.theta_i_deg[nearest] || l.phi_i_deg[i] != l.phi_i_deg[nearest] ||
-          !counts(mask(at(i), plane[i]), noisy))
+          !counts_in_integral(mask(at(i), plane[i]), noisy))
         continue;
       sum += t.patches[i] * plane[i];
       weight += t.patches[i];
@@ -169,126 +165,6 @@ bool one_half_turn(const DirectionList& l, const std::vector<std::size_t>& sampl
     return phi >= 0 && phi <= 180;
   });
 }
-
-constexpr double reach_deg = 12;  ///< from a place to the nearest sample that speaks for it
-
-/// Samples of one incident direction, which is turned to φ = 0, and f between them.
-class AroundOneLight {
- public:
-  AroundOneLight(const Table& t, const std::vector<std::size_t>& samples, bool half, bool noisy)
-      : table_(t), at_(t), noisy_(noisy) {
-    const DirectionList& l = *t.list();
-    const Direction wi = direction(l.theta_i_deg[samples[0]] * degree, 0);
-    for (const std::size_t i : samples) {
-      const double phi = (l.phi_o_deg[i] - l.phi_i_deg[i]) * degree;
-      for (const double side : {phi, -phi}) {
-        const Direction wo = direction(l.theta_o_deg[i] * degree, side);
-        all_.push_back({wo, theta_of(half_vector_of(wi, wo)), i});
-        if (!half) break;  // else the other half is its mirror image
-      }
-    }
-    // A place looks only at those no farther from it in zenith angle than it may be at all.
-    std::ranges::stable_sort(all_, {}, height);
-    innermost_ = &*std::ranges::min_element(all_, {}, &Sample::theta_h);
-    constexpr double further = 1.5, least = 0.1 * degree;
-    for (const Sample& s : all_)
-      if (s.theta_h > std::max(further * innermost_->theta_h, least) &&
-          (!next_ || s.theta_h < next_->theta_h))
-        next_ = &s;
-  }
-
-  bool reaches(const Direction& wo) const { return near(wo, 0).first != nullptr; }
-  /// Half the angle between the mirror direction and the sample nearest to it.
-  double from_mirror() const { return innermost_->theta_h; }
-
-  /// Of a channel at a place.
-  struct Between {
-    double line, middle, doubt;
-  };
-  /// f interpolated over θ_h from the nearest sample to the nearest one on the other side of the place: by a line, and midway
-  /// between that and a line of logarithms, since a highlight lies along circles of θ_h, and its flank between the two.
-  /// Nearer to the mirror direction than any sample it rises by nobody knows how much, at most about as steeply as farther
-  /// out.
-  void operator()(const DirectionPair& p, std::span<Between> channels) const {
-    const double theta_h = theta_of(half_vector_of(p.wi, p.wo));
-    const Near n = near(p.wo, theta_h);
-    for (std::size_t c = 0; c < channels.size(); ++c) {
-      const double first = value(n.first, c), other = value(n.across, c);
-      Between& f = channels[c];
-      f = {first, first, 0};
-      if (!std::isnan(other)) {
-        const double part = std::clamp(
-            (theta_h - n.first->theta_h) / (n.across->theta_h - n.first->theta_h), 0.0, 1.0);
-        f.line = std::lerp(first, other, part);
-        f.doubt = f.line -
-                  std::pow(std::max(first, 0.0), 1 - part) * std::pow(std::max(other, 0.0), part);
-        // Noise below 0 has no logarithm.
-        f.middle = first > 0 && other > 0 ? f.line - f.doubt / 2 : f.line;
-      } else if (theta_h < innermost_->theta_h) {
-        const double in = value(innermost_, c), out = value(next_, c);
-        if (in > 0 && out > 0) f.doubt = first * std::abs(in / out - 1);
-      } else {
-        const double second = value(n.second, c);
-        f.doubt = std::isnan(second) ? std::abs(first) : std::abs(first - second) / 2;
-      }
-    }
-  }
-
- private:
-  struct Sample {
-    Direction wo;
-    double theta_h;
-    std::size_t number;  ///< in the table
-  };
-  /// The nearest sample, the next, and the nearest on the other side in θ_h; all null where the first is out of reach.
-  struct Near {
-    const Sample *first = nullptr, *second = nullptr, *across = nullptr;
-  };
-  static double height(const Sample& s) { return s.wo.z; }
-
-  static Direction half_vector_of(const Direction& a, const Direction& b) {
-    return {a.x + b.x, a.y + b.y, a.z + b.z};
-  }
-
-  Near near(const Direction& wo, double theta_h) const {
-    constexpr double far_deg = 3 * reach_deg;  // of those beside the nearest
-    const double zenith = theta_of(wo), margin = far_deg * degree + 1e-6;
-    const double highest = zenith < margin ? 1.0 : std::cos(zenith - margin);
-    const double reach = std::cos(reach_deg * degree), far = std::cos(far_deg * degree);
-    Near n;
-    std::array<double, 2> closeness{-1, -1};  // of the first and the second
-    std::array<const Sample*, 2> side{};      // the nearest within and without its θ_h
-    std::array<double, 2> closest{-1, -1};
-    auto s = std::ranges::lower_bound(all_, std::cos(zenith + margin), {}, height);
-    for (; s != all_.end() && s->wo.z <= highest; ++s) {
-      const double c = dot(s->wo, wo);
-      if (c < far) continue;
-      const bool without = s->theta_h > theta_h;
-      if (c > closest[without]) closest[without] = c, side[without] = &*s;
-      if (c > closeness[0] || (c == closeness[0] && s->number < n.first->number)) {
-        n.second = n.first, closeness[1] = closeness[0];
-        n.first = &*s, closeness[0] = c;
-      } else if (c > closeness[1] && s->number != n.first->number) {
-        n.second = &*s, closeness[1] = c;
-      }
-    }
-    if (!(closeness[0] >= reach)) return {};
-    n.across = side[n.first->theta_h > theta_h ? 0 : 1];
-    return n;
-  }
-
-  double value(const Sample* s, std::size_t channel) const {
-    if (!s) return std::nan("");
-    const double v = table_.values[channel][s->number];
-    return counts(mask(at_(s->number), v), noisy_) ? v : std::nan("");
-  }
-
-  const Table& table_;
-  SampleAngles at_;
-  bool noisy_;  ///< negative values are noise, and no mark
-  std::vector<Sample> all_;
-  const Sample *innermost_ = nullptr, *next_ = nullptr;  ///< of the least θ_h, and farther out
-};
 
 /// How far from the mirror direction a light's nearest sample may be: within a highlight that the table resolves, or
 /// anywhere if samples in the mirror direction of other lights show none.
@@ -317,7 +193,7 @@ std::string angles_in_words(const std::set<double>& deg) {
 
 TableAlbedo albedo_of_list(const Table& t, const PeakSearch& search) {
   const auto fewest = static_cast<std::size_t>(
-      1 / (1 - std::cos(reach_deg * degree)));  // caps of that size in a hemisphere
+      1 / (1 - std::cos(AroundOneLight::reach_deg * degree)));  // caps of that size in a hemisphere
   const auto nodes = cosine_hemisphere(24, 48);
   const DirectionList& l = *t.list();
   const Hashes hashes = hashes_of(t.size(), [&](std::size_t i) -> AngleKey<2> {
