@@ -51,8 +51,8 @@ Pairs of_list(const DirectionList& l) {
       const double turn = ti == 0 || to == 0 ? 0 : l.phi_o_deg[i] - phi_i[i];
       return swapped ? Key{to, 0, ti, around(-turn)} : Key{ti, 0, to, around(turn)};
     }
-    const long pi = ti == 0 ? 0 : around(phi_i[i]), po = to == 0 ? 0 : around(l.phi_o_deg[i]);
-    return swapped ? Key{to, po, ti, pi} : Key{ti, pi, to, po};
+    const long of_i = ti == 0 ? 0 : around(phi_i[i]), of_o = to == 0 ? 0 : around(l.phi_o_deg[i]);
+    return swapped ? Key{to, of_o, ti, of_i} : Key{ti, of_i, to, of_o};
   };
   const auto hashes = [&](bool swapped) {
     return hashes_of(phi_i.size(), [&](std::size_t i) { return key(i, swapped); });
