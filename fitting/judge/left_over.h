@@ -103,7 +103,7 @@ struct UnevenNoise {
 /// That of each channel; empty where a part of f is all of it, the same in each channel.
 std::vector<UnevenNoise> uneven_noise(const Left&);
 
-/// Cell that is furthest off for certain: by its mean less two standard errors.
+/// Cell that is most clearly off: by its mean less two standard errors.
 std::optional<MisfitCell> worst_cell(const Left&);
 
 /// True where little else is left than rounding: of all values together, and of each by its own, lest one

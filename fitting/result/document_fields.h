@@ -104,7 +104,9 @@ inline constexpr auto description<Misfit> = FieldList{
     Field{"size", &Misfit::size, "log RMS beyond noise"},
     Field{"told", &Misfit::told, "whether it is significant and large enough to matter"},
     Field{"follows", &Misfit::follows, "angles that most of it follows"},
-    Field{"worst_cell", &Misfit::worst_cell, "cell of the residual map that is furthest off"},
+    Field{
+        "worst_cell", &Misfit::worst_cell,
+        "cell of the residual map that is most clearly off: by its mean less two standard errors"},
     Field{"note", &Misfit::note, "why it was not tested"},
     Field{"too_few", &Misfit::too_few, "whether values or angles are too few to tell"},
     Field{"outliers", &Misfit::outliers, "number of values far from those around them"}};

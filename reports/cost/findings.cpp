@@ -137,13 +137,13 @@ class Sayings {
           r.number != "float" || r.isa != best_ || r.memory != "cache" || is_mistake(r))
         continue;
       ++all;
-      ties += r.pareto && r.tie;
-      if (r.pareto && !r.tie) on.push_back(&r);
+      ties += r.pareto && !r.on_line;
+      if (r.on_line) on.push_back(&r);
     }
     if (on.empty()) return;
     say("Among {} masking forms compared with height-correlated Smith, {} worth their time in "
         "cache: "
-        "no other is as exact and faster. {} more may be, but tie with one as exact or more.",
+        "no more exact one may be as fast. {} more may be, but tie with one as exact or more.",
         all, on.size() == 1 ? "one is" : fmt::format("{} are", on.size()), number_or_none(ties));
     std::ranges::sort(on, {}, [](const CostRow* r) { return -r->error.rms; });
     constexpr std::size_t told = 4;

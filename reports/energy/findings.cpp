@@ -56,8 +56,8 @@ void of_white(Findings& to, const EnergyRows& r) {
   for (const auto& c : f->crossings)
     if (c.mu == 0 && c.share == 0.05 && !c.ranges.empty())
       to.headline = fmt::format(
-          "Rough metal goes dark: one bounce under GGX loses {} or more of white light {}, and {} "
-          "where it is roughest.",
+          "Rough metal goes dark: on average over the hemisphere, one bounce under GGX loses {} or "
+          "more of white light {}, and {} where it is roughest.",
           percent(c.share), range_text(c.ranges[0].from, c.ranges[0].to, "roughness "),
           percent(1 - rough.albedo, 2));
   const auto normal =
@@ -185,7 +185,7 @@ void of_single_lights(Findings& to, const EnergyRows& r) {
     return c == r.compensations.end() ? HUGE_VAL : c->rms;
   };
   const auto worst = [&](const Way& w) {
-    return std::ranges::find(r.compensations, w.id, &CompensationCost::id)->worst;
+    return std::abs(std::ranges::find(r.compensations, w.id, &CompensationCost::id)->worst);
   };
   if (ways[0].left == ways[1].left || rms(ways[0]) == rms(ways[1])) return;
   const auto& by_light = ways[ways[0].left < ways[1].left ? 0 : 1];
@@ -270,7 +270,7 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
                of_all(makers, makes.size()), words,
                makers == 0 ? "They all" : fmt::format("The other {}", makes.size() - makers),
                largest > 1
-                   ? fmt::format("reflect {} more than that at most, within their integral's error",
+                   ? fmt::format("exceed what arrives by {} at most, within their integral's error",
                                  percent_at_most(std::max(largest - 1, 1e-6)))
                    : fmt::format("reflect {} of it at most", rounded_up(largest, 4))));
 }

@@ -84,14 +84,16 @@ std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::
   return fmt::format("time is short: then {}, {} faster, {}", name_of_form(cheaper.form),
                      ns_text(more(cheaper, taken).ns), left);
 }
-/// Aside on the cost, where both stand in a whole model, composed of its terms: that it vanishes where memory is the limit.
+/// Aside on the cost, where both stand in a whole model, composed of its terms: what is left of it where memory is the limit, if not
+/// every process found it.
 std::string streaming_aside(const Facts& f, std::string_view taken, std::string_view cheap) {
   const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
   if (!a || !b) return {};
   constexpr double seen = 0.1;  // of the model's time, that a spread must not hide
-  if (const auto d = more(*b, *a); (d.survives && d.ns > 0) || d.spread_ns > seen * b->ns)
-    return {};
-  return " (no difference was measured in a whole model that reads its inputs from memory)";
+  const auto d = more(*b, *a);
+  if ((d.survives && d.ns > 0) || d.spread_ns > seen * b->ns) return {};
+  return fmt::format(" ({}{:.2f} ± {:.2f} ns in a whole model that reads its inputs from memory)",
+                     d.ns < 0 ? "−" : "+", std::abs(d.ns), d.spread_ns);
 }
 /// Aside on what is saved: how much of it is left in a whole model in cache.
 std::string saved_aside(const Facts& f, std::string_view taken, std::string_view cheaper) {
@@ -141,9 +143,9 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
        fmt::format(
-           "GGX is off from published fits of measured materials by {} (the median; {} that "
-           "determine gamma have a longer tail)",
-           factor(t.ggx_log_rms), of_all(t.longer, t.determined)),
+           "GGX is off from published fits of measured materials by {} (the median; of {} that "
+           "determine gamma, {} have a longer tail than GGX)",
+           factor(t.ggx_log_rms), t.determined, t.longer),
        std::string(no_more),
        fmt::format("you fit gamma, too (median {:.2g} where the fit determines it): then GTR with "
                    "its own Smith, "
@@ -389,10 +391,11 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     d.error += worse_below
                    ? fmt::format("; below that roughness, with one bounce, {}", at_most(pays.below))
                    : " at all roughnesses";
-    d.error += fmt::format(
-        " ({}one bounce{}: {})",
-        taken->error > side_by_side && all.size() > 2 ? "no other form used so leaves less; " : "",
-        worse_below ? " at all roughnesses" : "", at_most(without));
+    d.error += fmt::format(" ({}one bounce{}: {})",
+                           taken->error > side_by_side && all.size() > 2
+                               ? "no other form, switched on the same way, leaves less; "
+                               : "",
+                           worse_below ? " at all roughnesses" : "", at_most(without));
     d.unless += nearer_below(f, f0, of_image_light, pays);
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));

@@ -188,7 +188,9 @@ std::string unbroken(std::string text) {
   for (const auto& [apart, together] : {std::pair("≤ ", "≤\u00a0"),
                                         {"F0 ", "F0\u00a0"},
                                         {" ns", "\u00a0ns"},
-                                        {"|n × h|²", "|n\u00a0×\u00a0h|\u2060²"}})
+                                        {"ΔE ", "ΔE\u00a0"},
+                                        {"×/÷ ", "×/÷\u00a0"},
+                                        {"|n × h|²", "|n\u00a0×\u00a0h|²"}})
     for (std::size_t at = 0; (at = text.find(apart, at)) != std::string::npos;)
       text.replace(at, std::string_view(apart).size(), together);
   return text;
@@ -207,9 +209,9 @@ Part lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
   std::string text =
       "A form is one formula for a part of a model. “Error left” compares it with exact Fresnel, "
-      "exact (height-correlated) Smith masking and all bounces of light, and on matte surfaces "
-      "with "
-      "EON. “Costs” is the CPU time that one evaluation in float takes beyond the usual form. "
+      "exact (height-correlated) Smith masking and all bounces of light. Matte surfaces are "
+      "compared with EON, and what lies below a lobe with EON coupled by albedos. “Costs” is the "
+      "CPU time that one evaluation in float takes beyond the usual form. "
       "Usual "
       "are Schlick's masking with k = (r+1)²/8, Schlick's Fresnel, GGX, one bounce and Lambert. G₂ "
       "is "
@@ -332,16 +334,18 @@ std::string index_page_html(const ReportIndex& i) {
   out.first = {lead(i)};
   out.sections = {what_to_ship(i), fresnel(i)};
   if (!i.front.figures.empty())
-    out.sections.push_back({"What masking's accuracy costs",
-                            "Error of G₂ against height-correlated Smith, over the time of a "
-                            "sample. The dashed line joins the forms that no other beats in "
-                            "both. One form counts as faster than another if every process that "
-                            "measured both found it so; on the line stands none that may be as "
-                            "slow as a more exact one. The error is an RMS over a grid of directions and "
-                            "widths. The masking row above averages evenly over both cosines and "
-                            "roughness, so its figures differ.",
-                            {page::Shown{i.front.figures[0].family, {}, 440}},
-                            "time"});
+    out.sections.push_back(
+        {"What masking's accuracy costs",
+         "Error of G₂ against height-correlated Smith, over the time of a "
+         "sample. The dashed line joins the forms that no other beats in "
+         "both. One form counts as faster than another if every process that "
+         "measured both found it so. A form is left off the line if a more "
+         "exact one may be as fast; of two as exact and as fast, it has the one "
+         "that took less here. The error is an RMS over a grid of directions and "
+         "widths. The masking row above averages evenly over both cosines and "
+         "roughness, so its figures differ.",
+         {page::Shown{i.front.figures[0].family, {}, 440}},
+         "time"});
   out.sections.push_back(cards(i));
   out.sections.push_back(claims(i));
   out.sections.push_back(
@@ -377,11 +381,11 @@ std::string index_page_html(const ReportIndex& i) {
             "over both cosines from 0.05 to 1 and over roughness.",
             "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on. For image-based "
             "light the reference is transport between the facets under even light. For single "
-            "lights it is random walks, whose error is added, on a ball lit from 30° and from "
-            "120° to the view.",
-            "Multiple scattering is compensated from the roughness on from which one bounce errs "
-            "by more than shows side by side and the compensation is nearer, in the worse of the "
-            "lights. It has to lower the greatest ΔE2000 by 1 or more.",
+            "lights it is random walks on a ball, lit from 30° and from 120° to the view; the "
+            "walks' error is added to each ΔE.",
+            "Compensation begins where, under the worse of the lights, one bounce is off by more "
+            "than ΔE 2.3 and the compensation is nearer to the reference from there on. It has to "
+            "lower the greatest ΔE2000 by 1 or more.",
             "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
             "Two forms are timed in the same process, and a cost is their difference.",
             "Times are medians over several processes on this machine. A difference counts only "

@@ -281,7 +281,7 @@ addEventListener("beforeprint", () => {
     const shown = of(slot.firstElementChild), first = shown.findIndex((v) => v !== ""), told = new Set([shown[first]]);
     const near = (t) => of(t).filter((v, i) => v === shown[i]).length, list = others_of(slot).sort((a, b) => near(b) - near(a)).filter((t) => !told.has(of(t)[first]) && told.add(of(t)[first]));
     const paper = document.createElement("div");
-    paper.className = list[0]?.content.querySelector("figure") ? "paper panels small-ones" : "paper";
+    paper.className = !list[0]?.content.querySelector("figure") ? "paper" : list.length > 1 ? "paper panels small-ones" : "paper panels";
     for (const t of list) {
       const part = t.content.cloneNode(true);
       if (!part.querySelector("figure")) paper.insertAdjacentHTML("beforeend", "<h3></h3>"), paper.lastElementChild.textContent = of(t)[first];

@@ -15,11 +15,26 @@
 namespace gonio::page {
 namespace {
 
+/// Markup whose words that a line would break after a sign within are kept whole: "×/÷ 1.2", its space unbreakable, "|a × b|²".
+std::string with_whole_words(std::string_view markup) {
+  std::string out;
+  while (!markup.empty()) {
+    const auto word = markup.substr(0, markup.find(' '));
+    const bool breaks = word.find("×/÷") != word.npos || word.find("|²") != word.npos;
+    if (breaks && word.find_first_of("`*<") == word.npos)
+      out.append("<span class=\"nw\">").append(word).append("</span>");
+    else
+      out += word;
+    markup.remove_prefix(word.size());
+    for (; markup.starts_with(' '); markup.remove_prefix(1)) out += ' ';
+  }
+  return out;
+}
 /// Text with its code set as such, and indices of angles set low.
 std::string prose(std::string_view text) {
   std::string out;
   bool code = false, bold = false;
-  const auto escaped = with_indices(markup_text(text), "<sub>", "</sub>");
+  const auto escaped = with_whole_words(with_indices(markup_text(text), "<sub>", "</sub>"));
   for (std::size_t i = 0; i < escaped.size(); ++i)
     if (escaped[i] == '`') {
       out += (code = !code) ? "<code>" : "</code>";

@@ -290,8 +290,9 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
           "Values are written to the second digit of their standard error. Standard errors: "
           "{}.{}{}",
           d.intervals,
-          d.clusters > 0 ? fmt::format(" Incident angles: {}.", count_text(d.clusters)) : "",
-          d.misfit.told ? " They are of noise; the intervals allow for the misfit, too." : ""),
+          d.misfit.told ? " Standard errors cover noise only; intervals also allow for the misfit."
+                        : "",
+          d.clusters > 0 ? fmt::format(" Incident angles: {}.", count_text(d.clusters)) : ""),
       {std::move(t)}};
   out.parts.emplace_back(Prose{
       fmt::format(

@@ -81,8 +81,8 @@ std::string map_words(const ResidualMap& m, double limit) {
   };
   return fmt::format(
       "In half of the {} cells the model is off by at most ×/÷ {}. Worst single cell, "
-      "which may be one bad sample: {}, at θ_h {}, θ_d {}. The strongest colours stand for ×/÷ {} "
-      "or more.",
+      "which may be one bad sample: {}, at θ_h {}, θ_d {}. The strongest colours of model ÷ table "
+      "stand for ×/÷ {} or more.",
       count, typical_factor(median(sizes)), deviation_in_words(std::exp(m.mean[worst])),
       middle(m.theta_h_deg, worst / nd), middle(m.theta_d_deg, worst % nd),
       typical_factor(std::log(limit)));

@@ -74,9 +74,10 @@ Figure cut_figure(const std::vector<std::string>& channels, const Cut& cut, bool
     f.y.to = log ? most * room : 1.06 * most;
   }
   std::size_t outside = 0;  // which would squeeze the rest
-  for (const auto& data : cut.data)
-    for (const double y : data)
-      if (std::isfinite(y) && (!log || y > 0) && !(y >= f.y.from && y <= f.y.to)) ++outside;
+  for (const auto* values : {&cut.data, &cut.left_out})
+    for (const auto& data : *values)
+      for (const double y : data)
+        if (std::isfinite(y) && (!log || y > 0) && !(y >= f.y.from && y <= f.y.to)) ++outside;
   if (outside && most > 0)
     f.note += fmt::format("{}{} outside the picture", f.note.empty() ? "" : "; ",
                           counted(outside, "value"));

@@ -1,6 +1,5 @@
 // Curves and points as SVG.
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numeric>
 
@@ -192,29 +191,44 @@ class CurveDrawing {
       return false;
     });
   }
-  /// Beside its point, above or below a bar of its error, where it hides no other and lies on no dashed line.  Points on such a line
-  /// come first.
+  /// Beside its point, where it hides no other and lies on no dashed line and no bar of an error; where there is no such place,
+  /// farther off at the end of a thin line.  Points on a dashed line come first.
   std::string labels(double width, std::string_view look) const {
     const auto x_at = [&](double v) { return width * x_.part(v); };
     struct Area {
       double left, top, right, bottom;
     };
-    std::vector<Area> taken, bars;  // bars: of errors, crossed only where nothing else is free
+    std::vector<Area> taken, bars, names;
     std::vector<Point> points;
     const auto meet = [](const Area& a, const Area& b) {
       return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
     };
+    const auto meets = [&](const Area& b, const std::vector<Area>& of) {
+      return std::ranges::any_of(of, [&](const Area& t) { return meet(b, t); });
+    };
     // A name beside another point would be read as that one's.
-    const auto free = [&](const Area& b, const Point& own, bool may_cross_bars) {
+    const auto free = [&](const Area& b, const Point& own) {
       return b.left > 0 && b.right < width && b.top > -6 && b.bottom < box_.height &&
-             std::ranges::none_of(taken, [&](const Area& t) { return meet(b, t); }) &&
-             (may_cross_bars ||
-              std::ranges::none_of(bars, [&](const Area& t) { return meet(b, t); })) &&
+             !meets(b, taken) && !meets(b, bars) &&
              std::ranges::none_of(points, [&](const Point& p) {
                const bool is_own = p.x == own.x && p.y == own.y;
-               const double beside = is_own ? 3 : std::clamp((b.right - b.left) / 2, 3.0, 10.0);
-               return meet(b, {p.x - beside, p.y - 3, p.x + beside, p.y + 3});
+               const double beside = is_own ? 3 : 10, above = is_own ? 3 : 8;
+               return meet(b, {p.x - beside, p.y - above, p.x + beside, p.y + above});
              });
+    };
+    // What a line leads past would be taken for what it leads to.
+    const auto leads = [&](const Point& own, const Point& end) {
+      const double length = std::hypot(end.x - own.x, end.y - own.y);
+      for (double at = 6; at < length; at += 3) {
+        const double x = std::lerp(own.x, end.x, at / length),
+                     y = std::lerp(own.y, end.y, at / length);
+        const Area here{x - 1, y - 1, x + 1, y + 1};
+        if (meets(here, names) || std::ranges::any_of(points, [&](const Point& p) {
+              return (p.x != own.x || p.y != own.y) && std::hypot(p.x - x, p.y - y) < 6;
+            }))
+          return false;
+      }
+      return true;
     };
     const auto cover = [&](double x0, double y0, double x1, double y1) {
       const int steps = std::max(1, static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 4));
@@ -256,36 +270,49 @@ class CurveDrawing {
     std::string out = fmt::format(R"(<g class="in {}" font-size="11">)", look);
     for (const auto& [c, i] : of) {
       const double x = x_at(c->x[i]), y = y_at(c->y[i]), w = svg::text_width(c->labels[i], 11);
-      const std::array<Point, 12> places{{{5, -16},
-                                          {-5 - w, -16},
-                                          {5, 3},
-                                          {-5 - w, 3},
-                                          {7, -6},
-                                          {-7 - w, -6},
-                                          {-w / 2, -18},
-                                          {-w / 2, 5},
-                                          {5, 9},
-                                          {-5 - w, 9},
-                                          {5, -23},
-                                          {-5 - w, -23}}};
-      const auto at = [&](const Point& by) {
+      std::vector<Point> places{{5, -16}, {-5 - w, -16}, {5, 3},        {-5 - w, 3},
+                                {7, -6},  {-7 - w, -6},  {-w / 2, -18}, {-w / 2, 5},
+                                {5, 9},   {-5 - w, 9},   {5, -23},      {-5 - w, -23}};
+      const std::size_t near = places.size();
+      for (const double r : {26.0, 40.0, 56.0, 76.0, 100.0})
+        for (const auto& [right, down] : {std::pair(0.8, -0.6),
+                                          {0.8, 0.6},
+                                          {-0.8, -0.6},
+                                          {-0.8, 0.6},
+                                          {0.3, -1.0},
+                                          {0.3, 1.0},
+                                          {-0.3, -1.0},
+                                          {-0.3, 1.0},
+                                          {1.0, -0.2},
+                                          {1.0, 0.2},
+                                          {-1.0, -0.2},
+                                          {-1.0, 0.2}})
+          places.push_back({right > 0 ? r * right + 2 : r * right - 2 - w, r * down - 6});
+      const auto area = [&](const Point& by) {
         return Area{x + by.x, y + by.y, x + by.x + w, y + by.y + 13};
       };
-      const Point* place = nullptr;
-      for (const bool may_cross_bars : {false, true})
-        if (!place)
-          if (const auto* const found =
-                  std::ranges::find_if(places,
-                                       [&](const Point& by) {
-                                         return free(at(by), {x, y}, may_cross_bars);
-                                       });
-              found != places.end())
-            place = found;
-      if (!place) continue;
-      taken.push_back(at(*place));
-      out += box_.text(x * box_.width / width, at(*place).bottom - 3, c->labels[i],
-                       fmt::format(R"( dx="{}"{})", number(place->x),
-                                   is_shown(std::pair(c, i)) ? "" : R"( class="more")"));
+      const auto end = [&](const Point& by) {  // of the line, at the middle of a side of the name
+        return Point{by.x > 0 ? x + by.x - 2 : x + by.x + w + 2, y + by.y + 7};
+      };
+      std::size_t k = 0;
+      while (k < places.size() &&
+             !(free(area(places[k]), {x, y}) && (k < near || leads({x, y}, end(places[k])))))
+        ++k;
+      if (k == places.size()) continue;
+      const Point& place = places[k];
+      taken.push_back(area(place));
+      names.push_back(area(place));
+      const auto more = is_shown(std::pair(c, i)) ? "" : R"( class="more")";
+      if (k >= near) {
+        const Point to = end(place);
+        const double length = std::hypot(to.x - x, to.y - y);
+        out += fmt::format(
+            R"(<svg{} y="{}" overflow="visible"{}><path class="zero" stroke-width=".8" d="M{} {}L{} {}"/></svg>)",
+            box_.x(x * box_.width / width), number(y), more, number(4 * (to.x - x) / length),
+            number(4 * (to.y - y) / length), number(to.x - x), number(to.y - y));
+      }
+      out += box_.text(x * box_.width / width, area(place).bottom - 3, c->labels[i],
+                       fmt::format(R"( dx="{}"{})", number(place.x), more));
     }
     return out + "</g>";
   }

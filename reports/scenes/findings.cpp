@@ -90,15 +90,16 @@ void savings(Findings& to, const ScenesRows& r) {
                     scenes_text(these), these.size() == 1 ? "" : "up to ", slowest_of(these)));
     to.say(fmt::format("No {} keeps the tolerance there with a plan's margin.",
                        by_table ? "set of forms without the tabulated light between facets"
-                                : "faster set of forms"));
+                                : "set of forms as fast as all effects"));
   }
   to.headline = fmt::format(
       "Leaving out what nobody sees saves a tenth or more of a shader's time in {} scenes whose "
       "plans hold, and up to {}.{}",
       save, up_to,
       slower.empty() ? ""
-                     : fmt::format(" In {} others the plan takes longer, up to {} times as long: "
-                                   "no faster set of forms keeps the tolerance.",
+                     : fmt::format(" In {} others the plan takes longer than the material with all "
+                                   "its effects, up to {} times as long: no set of forms as fast "
+                                   "as that keeps the tolerance.",
                                    slower.size(), slowest_of(slower)));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "

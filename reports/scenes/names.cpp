@@ -57,7 +57,7 @@ std::string_view name_of_effect(Effect effect) {
 
 std::string speed(double ratio) {
   return scene::is_as_fast(ratio)
-             ? "as fast"
+             ? "about as fast"
              : page::times(std::max(ratio, 1 / ratio)) + (ratio < 1 ? " as slow" : " as fast");
 }
 

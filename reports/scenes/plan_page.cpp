@@ -272,7 +272,7 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
         fmt::format("{}. It {}.", capital(not_kept(m, p.budget.has_value(), "the tolerance here")),
                     what_is_exceeded(m))});
   const std::string failed =
-      (m.passed_over ? fmt::format(" {} failed there.", many(m.passed_over, "cheaper set"))
+      (m.passed_over ? fmt::format(" {} failed on such points.", many(m.passed_over, "cheaper set"))
                      : std::string()) +
       (m.failed ? " " + capital(why_passed_over(m, p.cost)) + "." : "") +
       (m.is_unlit() ? " No light comes to any of them: every set of forms looks the same." : "");

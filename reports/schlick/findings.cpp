@@ -62,13 +62,14 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
   const auto within = [](const FresnelRow& x) { return x.max_abs < 0.01; };
   const std::size_t some = how_many(outside, within) + how_many(metals, within),
                     all = outside.size() + metals.size();
-  to.judge("Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
-           fmt::format("glass: up to {} of full light, {} of F", rounded_up(g->max_abs),
-                       percent_at_most(g->max_rel)),
-           fmt::format("for glass (IOR 1.5) Schlick's F is off by up to {}, near grazing. At "
-                       "all angles {}{} dielectrics and channels of metals stay within 0.01.",
-                       rounded_up(g->max_abs), 2 * some < all && some > 0 ? "only " : "",
-                       of_all(some, all)));
+  to.judge(
+      "Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
+      fmt::format("glass: up to {} of full light, {} of F", rounded_up(g->max_abs),
+                  percent_at_most(g->max_rel)),
+      fmt::format("for glass (IOR 1.5) Schlick's F is off by up to {}, near grazing. At "
+                  "all angles {}{} IORs of dielectrics and channels of metals stay within 0.01.",
+                  rounded_up(g->max_abs), 2 * some < all && some > 0 ? "only " : "",
+                  of_all(some, all)));
 }
 
 void only_near_one(Findings& to, const SchlickRows& r) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -88,7 +89,14 @@ void give_reasons(MaterialPlan& p, const Tolerance& t, bool has_budget) {
   }
 }
 
-/// Shares the scene's time out, and checks what each material got.
+/// A set of forms on fresh points.
+struct FreshCheck {
+  Judgement error;
+  double reference_error;
+};
+
+/// Shares the scene's time out, and checks what each material got.  Where a set fails there that had seemed to keep the tolerance, the
+/// time is shared out anew.
 void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
   const Scene& s = lit.scene;
   std::vector<Sharer> sharers;
@@ -101,25 +109,51 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
                                 sharer.choices.size()});
     sharers.push_back(std::move(sharer));
   }
-  const auto shares = share_out(std::move(sharers), *s.budget_ns, s.tolerance.limit);
+  std::vector<std::map<std::size_t, FreshCheck>> checked(plan.materials.size());
+  const auto index_of = [&](const MaterialPlan& m) {
+    return static_cast<std::size_t>(std::ranges::find(s.materials, m.name, &Material::name) -
+                                    s.materials.begin());
+  };
+  const auto check = [&](const MaterialPlan& m, const Forms& forms) -> FreshCheck {
+    const auto index = index_of(m);
+    const Look& look = lit.looks[index];
+    const Surface exact = look.surface(look.exact()), surface = look.surface(forms);
+    FreshDifferences fresh;
+    fresh.draw_to(fresh_points(s, options, surface), s, lit.drawer(index, options.directions),
+                  checking, exact, surface);
+    return {judge(fresh.all, s.tolerance), judge(fresh.own, s.tolerance).quantile};
+  };
+  Shares shares;
+  for (bool again = true; again;) {
+    shares = share_out(sharers, *s.budget_ns, s.tolerance.limit);
+    again = false;
+    for (std::size_t i = 0; i < plan.materials.size(); ++i) {
+      auto& m = plan.materials[i];
+      const std::size_t k = shares.choice[i];
+      if (checked[i].contains(k)) continue;
+      const auto& found = checked[i].emplace(k, check(m, m.sets[k].forms)).first->second;
+      if (m.margin.is_kept(found.error)) continue;
+      auto& choice = sharers[i].choices[k];
+      again |= !choice.breaks && choice.error <= s.tolerance.limit;
+      choice.error = std::max(choice.error, found.error.upper);
+      choice.breaks = true;
+      for (auto& each : m.front)
+        if (each.forms == m.sets[k].forms) each.failed = {found.error.worst, found.error.bound};
+    }
+  }
   plan.budget = Budget{*s.budget_ns, shares.ns, 0, shares.fits};
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     auto& m = plan.materials[i];
     const auto& c = m.sets[shares.choice[i]];
-    const auto index = static_cast<std::size_t>(
-        std::ranges::find(s.materials, m.name, &Material::name) - s.materials.begin());
-    const Look& look = lit.looks[index];
-    take(m, look, c.forms, c.ns, c.ops);
-    const auto drawer = lit.drawer(index, options.directions);
-    const Surface exact = look.surface(look.exact()), surface = look.surface(c.forms);
-    FreshDifferences fresh;
-    fresh.draw_to(fresh_points(s, options, surface), s, drawer, checking, exact, surface);
-    m.checked = judge(fresh.all, s.tolerance);
-    m.reference_error = judge(fresh.own, s.tolerance).quantile;
+    take(m, lit.looks[index_of(m)], c.forms, c.ns, c.ops);
+    const auto& found = checked[i].at(shares.choice[i]);
+    m.checked = found.error;
+    m.reference_error = found.reference_error;
     m.holds = m.margin.is_kept(m.checked);
     if (!m.needs_table()) m.without_table.reset();
-    m.could_hold = std::ranges::any_of(
-        m.front, [&](const Candidate& each) { return each.error.keeps(s.tolerance); });
+    m.could_hold = std::ranges::any_of(m.front, [&](const Candidate& each) {
+      return each.error.keeps(s.tolerance) && !each.failed;
+    });
   }
   for (const auto& m : plan.materials)
     plan.budget->error = std::max(plan.budget->error, m.checked.upper);

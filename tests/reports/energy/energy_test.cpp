@@ -445,7 +445,7 @@ TEST(EnergyReport, JudgesWhatIsSaidOfEnergyByItsForms) {
   EXPECT_EQ(judged("reflected energy never exceeds incoming"), Claim::Judged::holds);
   const auto all = findings(r).sentences;
   EXPECT_TRUE(std::ranges::any_of(all, [](const std::string& s) {
-    return s.find(" more than that at most, within") != s.npos;
+    return s.find("exceed what arrives by ") != s.npos;
   })) << "no more than the integral's error, and not rounded up to a thousandth";
 }
 

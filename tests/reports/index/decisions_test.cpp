@@ -171,8 +171,8 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto& tails = about(all, "Distribution");
   EXPECT_EQ(tails.take_id, "ndf.ggx");
   EXPECT_EQ(tails.error,
-            "GGX is off from published fits of measured materials by ×/÷ 1.5 (the median; 9 of 14 "
-            "that determine gamma have a longer tail)");
+            "GGX is off from published fits of measured materials by ×/÷ 1.5 (the median; of 14 "
+            "that determine gamma, 9 have a longer tail than GGX)");
   EXPECT_EQ(without_aside(tails.error),
             "GGX is off from published fits of measured materials by ×/÷ 1.5");
   EXPECT_EQ(tails.unless,

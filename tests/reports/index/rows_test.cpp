@@ -81,11 +81,13 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
     if (s.roughness < 0.5 && s.id == "single") below = std::max(below, s.delta_e + s.error);
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(row.error,
-            fmt::format("{}{} (no other form used so leaves less; one bounce{}: {})", up_to(kulla),
-                        below > kulla ? "; below that roughness, with one bounce, " + at_most(below)
-                                      : " at all roughnesses",
-                        below > kulla ? " at all roughnesses" : "", at_most(nothing)));
+  EXPECT_EQ(
+      row.error,
+      fmt::format("{}{} (no other form, switched on the same way, leaves less; one bounce{}: {})",
+                  up_to(kulla),
+                  below > kulla ? "; below that roughness, with one bounce, " + at_most(below)
+                                : " at all roughnesses",
+                  below > kulla ? " at all roughnesses" : "", at_most(nothing)));
   EXPECT_NE(below, kulla);
   EXPECT_NE(row.unless.find("the surface is no metal (F0 0.04): then one bounce, ΔE ≤ 1.4"),
             row.unless.npos)
@@ -267,8 +269,8 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   join(all, facts(timed({"ggx/smith_ggx.correlated/schlick", "gtr/smith_gtr.correlated/schlick"})));
   const auto row = of(decisions(all), "Distribution");
   EXPECT_EQ(row.error, fmt::format("GGX is off from published fits of measured materials by ×/÷ "
-                                   "{:.3g} (the median; 10 of 10 "
-                                   "that determine gamma have a longer tail)",
+                                   "{:.3g} (the median; of 10 "
+                                   "that determine gamma, 10 have a longer tail than GGX)",
                                    std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(row.unless,
             fmt::format("you fit gamma, too (median 1.5 where the fit determines it): then GTR "

@@ -171,7 +171,7 @@ TEST(PlanPage, CallsTimesThatAClockCannotTellApartTheSame) {
     place_of(page, "red plastic takes as long as with all effects.");
     EXPECT_EQ(page.find("makes red plastic"), page.npos);
   }
-  EXPECT_EQ(scenes::speed(1.03), "as fast");
+  EXPECT_EQ(scenes::speed(1.03), "about as fast");
   EXPECT_EQ(scenes::speed(1 / 6.3), "6.3\u202f× as slow");
 }
 

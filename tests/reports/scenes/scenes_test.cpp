@@ -316,7 +316,9 @@ TEST(ScenesFindings, BlameTheTableOnlyWhereAPlanKeepsIt) {
   EXPECT_EQ(at[2],
             "The plan is slower than all effects of the material for the material that needs "
             "everything under rim light: it takes 1.4 times as long.");
-  EXPECT_EQ(at[3], "No faster set of forms keeps the tolerance there with a plan's margin.");
+  EXPECT_EQ(
+      at[3],
+      "No set of forms as fast as all effects keeps the tolerance there with a plan's margin.");
 }
 
 TEST(ScenesFindings, CountWhatIsKept) {

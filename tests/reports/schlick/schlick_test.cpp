@@ -294,7 +294,8 @@ TEST(SchlickReport, ClaimsCountTheRowsOfTheReport) {
     });
   };
   EXPECT_TRUE(said(std::to_string(bright) + " of " + std::to_string(channels) + " channels"));
-  EXPECT_TRUE(said(std::to_string(small) + " of " + std::to_string(all) + " dielectrics and"))
+  EXPECT_TRUE(
+      said(std::to_string(small) + " of " + std::to_string(all) + " IORs of dielectrics and"))
       << "those that were measured, too";
 }
 

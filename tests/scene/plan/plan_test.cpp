@@ -288,6 +288,21 @@ TEST(Plan, SharesABudgetOut) {
   EXPECT_LE(between.budget->error, poor.budget->error);
 }
 
+TEST(Plan, LooksOnWhereASetThatTheBudgetChoseFailsOnFreshPoints) {
+  GONIO_MANY_FITS();
+  const auto grey = test::material("disney.coupled+ggx/smith_ggx.correlated/dielectric",
+                                   {"kd=0.2", "roughness=0.5", "eta=1.5"});
+  Scene s =
+      test::sphere(grey, {test::light({0.9, 0.3, -0.5}, 3), test::light({-0.8, 0.3, -0.55}, 3),
+                          test::light({0.3, 0.5, 0.8}, 1)});
+  std::get<Camera>(s.view).fov_deg = 30;
+  const auto free = plan_scene(s);
+  ASSERT_TRUE(free.holds);
+  const auto& m = free.materials[0];
+  s.budget_ns = 6 * m.ns * m.directions;  // without the table, which takes longer
+  EXPECT_TRUE(plan_scene(s).holds) << "on points where sets are compared another errs less";
+}
+
 TEST(Plan, RefusesAMaterialThatNoViewShows) {
   Scene s = test::sphere(test::chalk(), test::front());
   std::get<Sphere>(s.objects[0].shape).center = {0, 0, 50};
