@@ -53,7 +53,8 @@ Section plans(const ScenesRows& all) {
           "The large number compares the plan with all that the material has, both in float, as "
           "shaders ship it: with Kulla and Conty's lobe between facets. The small one compares it "
           "with everything on in double. A plan is slower where nothing as fast as that lobe "
-          "keeps the tolerance with a plan's margin. Effects that are not kept have their cheapest form. "
+          "keeps the tolerance with a plan's margin. Effects that are not kept have their cheapest "
+          "form. "
           "A plan that holds differs by ΔE2000 {} or less at {} of the points, and by {} at "
           "most.{}",
           plain(all.tolerance.limit), percent_given(all.tolerance.quantile),
