@@ -7,6 +7,7 @@
 #include "reports/picture/figure.h"
 #include "reports/picture/figure_scale.h"
 #include "reports/picture/figure_style.h"
+#include "reports/picture/label_placer.h"
 #include "reports/picture/svg.h"
 
 #include <fmt/format.h>
@@ -191,128 +192,59 @@ class CurveDrawing {
       return false;
     });
   }
-  /// Beside its point, where it hides no other and lies on no dashed line and no bar of an error; where there is no such place,
-  /// farther off at the end of a thin line.  Points on a dashed line come first.
+  /// Names of points; those on a dashed line come first.
   std::string labels(double width, std::string_view look) const {
-    const auto x_at = [&](double v) { return width * x_.part(v); };
-    struct Area {
-      double left, top, right, bottom;
+    const auto at = [&](const FigureCurve& c, std::size_t i) {
+      return svg::Spot{width * x_.part(c.x[i]), y_at(c.y[i])};
     };
-    std::vector<Area> taken, bars, names;
-    std::vector<Point> points;
-    const auto meet = [](const Area& a, const Area& b) {
-      return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
-    };
-    const auto meets = [&](const Area& b, const std::vector<Area>& of) {
-      return std::ranges::any_of(of, [&](const Area& t) { return meet(b, t); });
-    };
-    // A name beside another point would be read as that one's.
-    const auto free = [&](const Area& b, const Point& own) {
-      return b.left > 0 && b.right < width && b.top > -6 && b.bottom < box_.height &&
-             !meets(b, taken) && !meets(b, bars) &&
-             std::ranges::none_of(points, [&](const Point& p) {
-               const bool is_own = p.x == own.x && p.y == own.y;
-               const double beside = is_own ? 3 : 10, above = is_own ? 3 : 8;
-               return meet(b, {p.x - beside, p.y - above, p.x + beside, p.y + above});
-             });
-    };
-    // What a line leads past would be taken for what it leads to.
-    const auto leads = [&](const Point& own, const Point& end) {
-      const double length = std::hypot(end.x - own.x, end.y - own.y);
-      for (double at = 6; at < length; at += 3) {
-        const double x = std::lerp(own.x, end.x, at / length),
-                     y = std::lerp(own.y, end.y, at / length);
-        const Area here{x - 1, y - 1, x + 1, y + 1};
-        if (meets(here, names) || std::ranges::any_of(points, [&](const Point& p) {
-              return (p.x != own.x || p.y != own.y) && std::hypot(p.x - x, p.y - y) < 6;
-            }))
-          return false;
-      }
-      return true;
-    };
-    const auto cover = [&](double x0, double y0, double x1, double y1) {
-      const int steps = std::max(1, static_cast<int>(std::hypot(x1 - x0, y1 - y0) / 4));
-      for (int i = 0; i <= steps; ++i) {
-        const double x = std::lerp(x0, x1, static_cast<double>(i) / steps),
-                     y = std::lerp(y0, y1, static_cast<double>(i) / steps);
-        taken.push_back({x - 2, y - 2, x + 2, y + 2});
-      }
-    };
-    for (const auto& c : f_.curves)
+    svg::LabelPlacer placer(width, box_.height);
+    std::vector<std::pair<const FigureCurve*, std::size_t>> of;
+    for (const auto& c : f_.curves) {
       for (std::size_t i = 1; c.dashed && c.kind != FigureCurve::Kind::points && i < c.x.size();
            ++i)
-        if (drawable(c, i - 1) && drawable(c, i))
-          cover(x_at(c.x[i - 1]), y_at(c.y[i - 1]), x_at(c.x[i]), y_at(c.y[i]));
-    std::vector<std::pair<const FigureCurve*, std::size_t>> of;
-    for (const auto& c : f_.curves)
-      for (std::size_t i = 0; i < c.labels.size(); ++i)
-        if (drawable(c, i)) {
-          of.emplace_back(&c, i);
-          points.push_back({x_at(c.x[i]), y_at(c.y[i])});
-          if (i < c.x_error.size() && c.x_error[i] > 0)
-            bars.push_back({x_or_left(c.x[i] - c.x_error[i]) * width / box_.width,
-                            points.back().y - 2, x_at(c.x[i] + c.x_error[i]), points.back().y + 2});
-        }
-    const auto is_on_line = [&](const auto& at) {
-      return is_on_dashed_line(at.first->x[at.second], at.first->y[at.second]);
+        if (drawable(c, i - 1) && drawable(c, i)) placer.add_line(at(c, i - 1), at(c, i));
+      for (std::size_t i = 0; i < c.labels.size(); ++i) {
+        if (!drawable(c, i)) continue;
+        of.emplace_back(&c, i);
+        const auto p = at(c, i);
+        placer.add_point(p);
+        if (i < c.x_error.size() && c.x_error[i] > 0)
+          placer.add_bar({x_or_left(c.x[i] - c.x_error[i]) * width / box_.width, p.y - 2,
+                          width * x_.part(c.x[i] + c.x_error[i]), p.y + 2});
+      }
+    }
+    const auto is_on_line = [&](const auto& label) {
+      return is_on_dashed_line(label.first->x[label.second], label.first->y[label.second]);
     };
     // Where there is little room, only points of the line keep long names.
     if (width < curve_page_width && std::ranges::any_of(of, is_on_line))
-      std::erase_if(of, [&](const auto& at) {
-        return !is_on_line(at) && svg::text_width(at.first->labels[at.second], 11) > 20;
+      std::erase_if(of, [&](const auto& label) {
+        return !is_on_line(label) && svg::text_width(label.first->labels[label.second], 11) > 20;
       });
-    const auto is_shown = [&](const auto& at) {
-      return bool(first_[static_cast<std::size_t>(at.first - f_.curves.data())]);
+    const auto is_shown = [&](const auto& label) {
+      return bool(first_[static_cast<std::size_t>(label.first - f_.curves.data())]);
     };
-    std::ranges::stable_sort(of, std::ranges::greater{}, [&](const auto& at) {
-      return std::pair(is_shown(at), is_on_line(at));
+    std::ranges::stable_sort(of, std::ranges::greater{}, [&](const auto& label) {
+      return std::pair(is_shown(label), is_on_line(label));
     });
     std::string out = fmt::format(R"(<g class="in {}" font-size="11">)", look);
-    for (const auto& [c, i] : of) {
-      const double x = x_at(c->x[i]), y = y_at(c->y[i]), w = svg::text_width(c->labels[i], 11);
-      std::vector<Point> places{{5, -16}, {-5 - w, -16}, {5, 3},        {-5 - w, 3},
-                                {7, -6},  {-7 - w, -6},  {-w / 2, -18}, {-w / 2, 5},
-                                {5, 9},   {-5 - w, 9},   {5, -23},      {-5 - w, -23}};
-      const std::size_t near = places.size();
-      for (const double r : {26.0, 40.0, 56.0, 76.0, 100.0})
-        for (const auto& [right, down] : {std::pair(0.8, -0.6),
-                                          {0.8, 0.6},
-                                          {-0.8, -0.6},
-                                          {-0.8, 0.6},
-                                          {0.3, -1.0},
-                                          {0.3, 1.0},
-                                          {-0.3, -1.0},
-                                          {-0.3, 1.0},
-                                          {1.0, -0.2},
-                                          {1.0, 0.2},
-                                          {-1.0, -0.2},
-                                          {-1.0, 0.2}})
-          places.push_back({right > 0 ? r * right + 2 : r * right - 2 - w, r * down - 6});
-      const auto area = [&](const Point& by) {
-        return Area{x + by.x, y + by.y, x + by.x + w, y + by.y + 13};
-      };
-      const auto end = [&](const Point& by) {  // of the line, at the middle of a side of the name
-        return Point{by.x > 0 ? x + by.x - 2 : x + by.x + w + 2, y + by.y + 7};
-      };
-      std::size_t k = 0;
-      while (k < places.size() &&
-             !(free(area(places[k]), {x, y}) && (k < near || leads({x, y}, end(places[k])))))
-        ++k;
-      if (k == places.size()) continue;
-      const Point& place = places[k];
-      taken.push_back(area(place));
-      names.push_back(area(place));
-      const auto more = is_shown(std::pair(c, i)) ? "" : R"( class="more")";
-      if (k >= near) {
-        const Point to = end(place);
-        const double length = std::hypot(to.x - x, to.y - y);
+    for (const auto& label : of) {
+      const auto& text = label.first->labels[label.second];
+      const auto p = at(*label.first, label.second);
+      const auto place = placer.place(p, svg::text_width(text, 11));
+      if (!place) continue;
+      const auto more = is_shown(label) ? "" : R"( class="more")";
+      const double x = p.x * box_.width / width;
+      if (place->end) {
+        const auto [right, down] = *place->end;
+        const double dot = 4 / std::hypot(right, down);
         out += fmt::format(
             R"(<svg{} y="{}" overflow="visible"{}><path class="zero" stroke-width=".8" d="M{} {}L{} {}"/></svg>)",
-            box_.x(x * box_.width / width), number(y), more, number(4 * (to.x - x) / length),
-            number(4 * (to.y - y) / length), number(to.x - x), number(to.y - y));
+            box_.x(x), number(p.y), more, number(dot * right), number(dot * down), number(right),
+            number(down));
       }
-      out += box_.text(x * box_.width / width, area(place).bottom - 3, c->labels[i],
-                       fmt::format(R"( dx="{}"{})", number(place.x), more));
+      out += box_.text(x, p.y + place->text.y, text,
+                       fmt::format(R"( dx="{}"{})", number(place->text.x), more));
     }
     return out + "</g>";
   }
