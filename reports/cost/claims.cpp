@@ -31,17 +31,15 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
              *plain = in_cache(r, "masking.ue_joint");
   if (!schlick || !joint || !plain) return;
   const bool more = schlick->time.ns > joint->time.ns;
-  const auto words = [&](const CostRow& other) {
-    return is_tie(*schlick, other)            ? "about as long as"
-           : schlick->time.ns > other.time.ns ? "longer than"
-                                              : "less than";
-  };
   to.judge("Schlick's masking costs a bit more than the joint approximation", "",
            verdict(more && !is_tie(*schlick, *joint)),
            fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
-           fmt::format("in float, from cache, it takes {} the joint form with its "
-                       "clamp. It takes {} the one without.",
-                       words(*joint), words(*plain)));
+           fmt::format("in float, from cache, it takes {}; the joint form takes {} with its clamp "
+                       "and {} without.{}",
+                       ns(schlick->time), ns(joint->time), ns(plain->time),
+                       is_tie(*schlick, *joint)
+                           ? " Not every process found the difference to the clamped one."
+                           : ""));
 }
 
 void exact_is_slow(Findings& to, const CostRows& r) {

@@ -281,7 +281,7 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
   const auto &smooth = f->averages.front(), &rough = f->averages.back();
   to.judge("as roughness grows the highlight widens and dims so that energy stays", "",
            verdict(rough.albedo > 0.99),
-           fmt::format("{} leaves at roughness {:g}", percent(rough.albedo), rough.roughness),
+           fmt::format("{} is reflected at roughness {:g}", percent(rough.albedo), rough.roughness),
            fmt::format("it dims more than that. With nothing absorbed, one bounce under GGX "
                        "reflects {} of the light where it is smoothest, and {} at roughness {:g}. "
                        "The missing light met a second facet.",

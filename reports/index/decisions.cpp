@@ -143,8 +143,8 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
        fmt::format(
-           "GGX is off from published fits of measured materials by {} (the median; of {} that "
-           "determine gamma, {} have a longer tail than GGX)",
+           "GGX is off from published fits of measured materials by {} (the median; {} of these "
+           "fits determine GTR's gamma, and {} of them have a longer tail than GGX)",
            factor(t.ggx_log_rms), t.determined, t.longer),
        std::string(no_more),
        fmt::format("you fit gamma, too (median {:.2g} where the fit determines it): then GTR with "
@@ -345,17 +345,16 @@ std::string nearer_below(const Facts& f, double f0, bool of_image_light, const C
     if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
         way && c.of_image_light == of_image_light && most_below(*way, pays.from) < least)
       best = &c, least = most_below(*way, pays.from);
-  return best ? fmt::format(
-                    "; one bounce leaves too much below roughness {:g}: then {} there, {}, {}",
-                    pays.from, name_of_form(best->id), delta_at_most(least),
-                    ns_text(best->without_ns + best->ns))
-              : "";
+  return best
+             ? fmt::format("one bounce leaves too much below roughness {:g}: then {} there, {}, {}",
+                           pays.from, name_of_form(best->id), delta_at_most(least),
+                           ns_text(best->without_ns + best->ns))
+             : "";
 }
 
 void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_image_light) {
   const auto* nothing = scattering_of(f, single, f0, of_image_light);
-  const auto* of_plastic = scattering_of(f, single, plastic, of_image_light);
-  if (!nothing || !of_plastic) return;
+  if (!nothing) return;
   const double without = std::ranges::max(nothing->delta_e);
   Candidates all{{std::string(single), without, 0, 0}};
   for (const auto& c : f.compensations)
@@ -365,23 +364,20 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
         all.push_back({c.id, pays->both(), c.ns, c.spread});
   const auto* taken = choose(all, single, side_by_side);
   const auto* other = nearest_cheaper(all, *taken);
-  auto unless = fmt::format("the surface is no metal (F0 {:g}): then one bounce, {}", plastic,
-                            delta_at_most(std::ranges::max(of_plastic->delta_e)));
-  if (const auto* way = scattering_of(f, taken->form, plastic, of_image_light))
-    if (const auto pays = compensated(*way, *of_plastic))
-      unless = fmt::format("the surface is no metal (F0 {:g}): then from roughness {:g} on",
-                           plastic, pays->from);
+  std::vector<std::string> unless;
   if (other && other->form != single)
-    unless += fmt::format("; time is short: then {}, {}", name_of_form(other->form),
-                          delta_at_most(other->error));
-  Decision d{fmt::format("Multiple scattering under {}, F0 {:g} ({} metal)",
+    unless.push_back(fmt::format("time is short: then {}, {}", name_of_form(other->form),
+                                 delta_at_most(other->error)));
+  Decision d{fmt::format("Multiple scattering under {}, F0 {:g} ({})",
                          of_image_light ? "image-based light" : "single lights", f0,
-                         f0 == bright ? "bright" : "dark"),
-             "None",
+                         f0 == bright ? "bright metal"
+                         : f0 == dark ? "dark metal"
+                                      : "no metal"),
+             "One bounce",
              "scattering." + taken->form,
              delta_at_most(taken->error),
              std::string(no_more),
-             std::move(unless)};
+             {}};
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     const auto pays = *compensated(*scattering_of(f, taken->form, f0, of_image_light), *nothing);
@@ -393,13 +389,15 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
                    : " at all roughnesses";
     d.error += fmt::format(" ({}one bounce{}: {})",
                            taken->error > side_by_side && all.size() > 2
-                               ? "no other form, switched on the same way, leaves less; "
+                               ? "no other, from its own roughness on, leaves less; "
                                : "",
                            worse_below ? " at all roughnesses" : "", at_most(without));
-    d.unless += nearer_below(f, f0, of_image_light, pays);
+    if (auto below = nearer_below(f, f0, of_image_light, pays); !below.empty())
+      unless.push_back(std::move(below));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
   }
+  d.unless = fmt::to_string(fmt::join(unless, "; "));
   to.push_back(std::move(d));
 }
 
@@ -539,7 +537,7 @@ std::vector<Decision> decisions(const Facts& f) {
   fresnel(out, f, "dielectric");
   fresnel(out, f, "metal");
   for (const bool of_image_light : {false, true})
-    for (const double f0 : {bright, dark}) scattering(out, f, f0, of_image_light);
+    for (const double f0 : {bright, dark, plastic}) scattering(out, f, f0, of_image_light);
   image_light(out, f);
   diffuse(out, f, false);
   diffuse(out, f, true);

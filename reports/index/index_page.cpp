@@ -210,7 +210,8 @@ Part lead(const ReportIndex& i) {
   std::string text =
       "A form is one formula for a part of a model. “Error left” compares it with exact Fresnel, "
       "exact (height-correlated) Smith masking and all bounces of light. Matte surfaces are "
-      "compared with EON, and what lies below a lobe with EON coupled by albedos. “Costs” is the "
+      "compared with energy-preserving Oren–Nayar (EON). A diffuse term below a lobe is compared "
+      "with EON coupled by albedos. “Costs” is the "
       "CPU time that one evaluation in float takes beyond the usual form. "
       "Usual "
       "are Schlick's masking with k = (r+1)²/8, Schlick's Fresnel, GGX, one bounce and Lambert. G₂ "
@@ -340,8 +341,10 @@ std::string index_page_html(const ReportIndex& i) {
          "sample. The dashed line joins the forms that no other beats in "
          "both. One form counts as faster than another if every process that "
          "measured both found it so. A form is left off the line if a more "
-         "exact one may be as fast; of two as exact and as fast, it has the one "
-         "that took less here. The error is an RMS over a grid of directions and "
+         "exact one may be as fast. Of two forms as exact and as fast as each other, "
+         "it goes through the one with the smaller time. Bars are the spread "
+         "between processes. Hammon's form and Unreal's joint form are one "
+         "formula, written in two ways. The error is an RMS over a grid of directions and "
          "widths. The masking row above averages evenly over both cosines and "
          "roughness, so its figures differ.",
          {page::Shown{i.front.figures[0].family, {}, 440}},
@@ -383,16 +386,18 @@ std::string index_page_html(const ReportIndex& i) {
             "light the reference is transport between the facets under even light. For single "
             "lights it is random walks on a ball, lit from 30° and from 120° to the view; the "
             "walks' error is added to each ΔE.",
-            "Compensation begins where, under the worse of the lights, one bounce is off by more "
-            "than ΔE 2.3 and the compensation is nearer to the reference from there on. It has to "
-            "lower the greatest ΔE2000 by 1 or more.",
+            "Compensation begins at the least roughness at which one bounce is off by more than ΔE "
+            "2.3, and from which on compensation is nearer under the worse of the lights: under "
+            "single lights by more than twice the walks' error. Below it one bounce may be off by "
+            "more than 2.3, too. Compensation has to lower the greatest ΔE2000 by 1 or more.",
             "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
             "Two forms are timed in the same process, and a cost is their difference.",
             "Times are medians over several processes on this machine. A difference counts only "
-            "if every process measured it, and it was always larger than the spread and than 3 % "
-            "of the time taken.",
-            "Under image-based light only Fdez-Agüera's compensation is compared: it needs no more "
-            "than the split sum's table.",
+            "if every process found it to the same side, and its median is larger than the spread "
+            "and than 3 % of the time taken.",
+            "Under image-based light only Fdez-Agüera's compensation is timed and compared, which "
+            "was "
+            "made for the split sum.",
             "Compensations are timed in one process, one light and view at a time."}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;

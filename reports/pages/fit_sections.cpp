@@ -224,8 +224,8 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
   const bool has_error = data != h.albedo.end() && data->error > 0;
   std::string words = fmt::format(
-      "{}he fitted model reflects most at θ_i {}, of the angles shown: {} of the light{}.{}",
-      several ? "In channel " + d.channels[channel] + " t" : "T", degrees_text(p.theta_i_deg[at]),
+      "Of the angles shown, the fitted model reflects most at θ_i {}{}: {} of the light{}.{}",
+      degrees_text(p.theta_i_deg[at]), several ? " in channel " + d.channels[channel] : "",
       share(top),
       known(p.data_albedo[at][channel])
           ? fmt::format("; the table reflects {}{}", share(p.data_albedo[at][channel]),
@@ -243,7 +243,7 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
     const auto [low, high] = std::ranges::minmax(ratios);
     const auto a = plain(low, 2), b = plain(high, 2);
     words += fmt::format(
-        " At the table's samples, the model's greatest value is {}{} times the table's{}.",
+        " At the table's samples, the model's greatest f_r is {}{} times the table's greatest{}.",
         a == b ? "" : a + " to ", b, a == b ? "" : " (by channel)");
   }
   const Shown picture{f.family, {}, 260};
@@ -269,7 +269,8 @@ Section search(const FitDocument& d, Pictures& pictures) {
   auto words = fmt::format(
       "For each of {} of {}, the other parameters were fitted anew to a part of the table; for the "
       "best few of these, to the whole table. {} fits better than this page's parameters: the "
-      "lowest cost (half the sum of squares) is {}, that of the fit {}.{} This is a search, not a "
+      "lowest cost that the search found (half the sum of squares) is {}, the fit's own is {}.{} "
+      "This is a search, not a "
       "proof.",
       many(c.cells.size(), c.parameters.size() == 1 ? "value" : "pair"),
       fmt::join(c.parameters, " and "), lies ? "None" : "One", significant(c.lowest, 6),

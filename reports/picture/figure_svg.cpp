@@ -243,8 +243,13 @@ class CurveDrawing {
             box_.x(x), number(p.y), more, number(dot * right), number(dot * down), number(right),
             number(down));
       }
+      // Widths are estimates: a name on the left ends where it should, one on the right begins
+      // there.
+      const double w = svg::text_width(text, 11);
+      const bool is_left = place->text.x + w / 2 < 0;
       out += box_.text(x, p.y + place->text.y, text,
-                       fmt::format(R"( dx="{}"{})", number(place->text.x), more));
+                       fmt::format(R"( dx="{}"{}{})", number(place->text.x + (is_left ? w : 0)),
+                                   is_left ? R"( text-anchor="end")" : "", more));
     }
     return out + "</g>";
   }

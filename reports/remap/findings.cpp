@@ -139,7 +139,9 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
            verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith),
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", remapped.value, remapped.smith,
                        remapped.nov),
-           fmt::format("exact Smith of roughness {:.2g} darkens it by {}.", remapped.roughness,
+           fmt::format("at NoV {:g} this k darkens the edge by {}. Exact Smith of roughness {:.2g} "
+                       "darkens it by {}.",
+                       remapped.nov, percent(1 - remapped.value, 2), remapped.roughness,
                        percent(1 - remapped.smith, 2)));
 }
 

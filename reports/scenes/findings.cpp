@@ -96,11 +96,12 @@ void savings(Findings& to, const ScenesRows& r) {
       "Leaving out what nobody sees saves a tenth or more of a shader's time in {} scenes whose "
       "plans hold, and up to {}.{}",
       save, up_to,
-      slower.empty() ? ""
-                     : fmt::format(" In {} others the plan takes longer than the material with all "
-                                   "its effects, up to {} times as long: no set of forms as fast "
-                                   "as that keeps the tolerance.",
-                                   slower.size(), slowest_of(slower)));
+      slower.empty()
+          ? ""
+          : fmt::format(
+                " In {} others it takes longer than all effects in the forms that "
+                "shaders ship, up to {} times as long: those are not shown to keep the tolerance.",
+                slower.size(), slowest_of(slower)));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

@@ -331,13 +331,15 @@ Section one(const scene::MaterialPlan& m, const scene::Plan& p, const std::strin
               "small"});
     s.parts.emplace_back(front);
     if (m.holds && !m.only_unseen && (!has_plan || (has_faster && !p.budget))) {
-      const auto which =
-          has_plan ? std::string("A set that took less time keeps the tolerance, too.")
-                   : fmt::format("The plan, at {} ns, is none of them.", significant(m.ns));
+      const auto which = has_plan
+                             ? std::string("A set that took less time keeps the tolerance, too.")
+                             : fmt::format("The plan, at {} ± {} ns, is none of them.",
+                                           significant(m.ns), significant(m.ns_spread, 2));
       s.parts.emplace_back(Prose{
           by_time
               ? which +
-                    " Times within twice their spreads count as the same, and among such sets the "
+                    " A set counts as no slower than one that computes all it does and more. Times "
+                    "within twice their spreads count as the same, and among such sets the "
                     "plan takes the fewest operations, then keeps the fewest effects."
               : "The plan is none of them: among sets of as many operations it keeps the "
                 "fewest effects.",
@@ -378,12 +380,13 @@ std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
   const bool by_time = cost == scene::Cost::time && m.passed_over > 0 && f.ns < m.ns;
   const auto at = by_time ? fmt::format("{:.3g} ns", f.ns)
                           : counted(static_cast<std::size_t>(std::round(f.ops)), "operation");
-  const auto which =
-      fmt::format("the {} ({})",
-                  m.passed_over > 1    ? "cheapest of them"
-                  : m.passed_over == 1 ? "cheapest"
-                                       : "nearest set with one form cheaper and fewer operations",
-                  at);
+  const auto which = fmt::format(
+      "the {} ({})",
+      m.passed_over > 1    ? "cheapest of them"
+      : m.passed_over == 1 ? "cheapest"
+                           : "nearest set with one form cheaper and fewer operations, by the "
+                             "points that sets are compared on",
+      at);
   return which + " " + exceeded(f.error, f.margin, m.bounded);
 }
 

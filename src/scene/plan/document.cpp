@@ -155,6 +155,8 @@ struct Description<scene::MaterialPlan> {
               amounts),
         field("ops_saved", &M::ops_saved, "share of the operations", Numbers{}, or_default),
         field("ns", &M::ns, "of f of one direction of light", amounts, or_default),
+        field("ns_spread", &M::ns_spread, "of ns, as sets are compared by it; 0: not known",
+              amounts, or_default),
         field("ns_exact", &M::ns_exact,
               "of the same, the effects that the material has exact, in float", amounts,
               or_default),

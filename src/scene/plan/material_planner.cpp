@@ -418,6 +418,7 @@ class MaterialPlanner {
       const auto set = checked(c->forms, surfaces_[i], c->ns, c->ops);
       if (set.keeps_margin()) {
         if (!p.failed) p.failed = nearest_cheaper(p, set);
+        p.ns_spread = c->spread();
         return settle(p, set);
       }
       candidates_[i].failed = {set.error.worst, set.error.bound};

@@ -83,9 +83,10 @@ void give_reasons(MaterialPlan& p, const Tolerance& t, bool has_budget) {
     if (e.keep || e.error_if_dropped <= t.limit) continue;
     e.reason += p.holds ? ", but with the other forms of this plan the limit is kept, as its check "
                           "found"
-                : has_budget ? ", but the budget leaves no time for it"
-                             : ", but no set keeps the tolerance with a plan's margin and this one "
-                               "is the closest";
+                : has_budget
+                    ? ", but no set that the budget allows keeps the tolerance with a plan's margin"
+                    : ", but no set keeps the tolerance with a plan's margin and this one "
+                      "is the closest";
   }
 }
 
@@ -146,6 +147,7 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
     auto& m = plan.materials[i];
     const auto& c = m.sets[shares.choice[i]];
     take(m, lit.looks[index_of(m)], c.forms, c.ns, c.ops);
+    m.ns_spread = c.spread();
     const auto& found = checked[i].at(shares.choice[i]);
     m.checked = found.error;
     m.reference_error = found.reference_error;

@@ -81,6 +81,7 @@ struct MaterialPlan {
   double speedup = 1, ops_saved = 0;  ///< the material's effects, exact in float, against the plan:
                                       ///< ratio of times, and the share of operations
   double ns = 0, ns_exact = 0, ops_exact = 0;
+  double ns_spread = 0;        ///< of ns, as sets are compared by it; 0: not known
   std::string reference;       ///< form of the light between facets that is compared with
   bool bounded = false;        ///< its error is known, and in what is claimed
   double reference_error = 0;  ///< quantile of that error
