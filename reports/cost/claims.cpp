@@ -34,7 +34,7 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
   to.judge("Schlick's masking costs a bit more than the joint approximation", "",
            verdict(more && !is_tie(*schlick, *joint)),
            fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
-           fmt::format("in float, from cache, it takes {}; the joint form takes {} with its clamp "
+           fmt::format("in float, from cache, it takes {}. The joint form takes {} with its clamp "
                        "and {} without.{}",
                        ns(schlick->time), ns(joint->time), ns(plain->time),
                        is_tie(*schlick, *joint)
