@@ -30,16 +30,20 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
              *joint = in_cache(r, "masking.ue_joint.clamped"),
              *plain = in_cache(r, "masking.ue_joint");
   if (!schlick || !joint || !plain) return;
-  const bool more = schlick->time.ns > joint->time.ns;
+  const auto longer_than = [&](const CostRow& other) {
+    return schlick->time.ns > other.time.ns && !is_tie(*schlick, other);
+  };
+  const auto unsure = [&](const CostRow& other) {
+    return is_tie(*schlick, other) ? ", which not every process found" : "";
+  };
   to.judge("Schlick's masking costs a bit more than the joint approximation", "",
-           verdict(more && !is_tie(*schlick, *joint)),
-           fmt::format("{} against {}, clamped", ns(schlick->time), ns(joint->time)),
-           fmt::format("in float, from cache, it takes {}. The joint form takes {} with its clamp "
-                       "and {} without.{}",
-                       ns(schlick->time), ns(joint->time), ns(plain->time),
-                       is_tie(*schlick, *joint)
-                           ? " Not every process found the difference to the clamped one."
-                           : ""));
+           verdict(longer_than(*joint), longer_than(*plain)),
+           fmt::format("{} against {}, and {} with a clamp", ns(schlick->time), ns(plain->time),
+                       ns(joint->time)),
+           fmt::format("in float, from cache, it takes {}. The joint form takes {}{}. With its "
+                       "clamp it takes {}{}.",
+                       ns(schlick->time), ns(plain->time), unsure(*plain), ns(joint->time),
+                       unsure(*joint)));
 }
 
 void exact_is_slow(Findings& to, const CostRows& r) {

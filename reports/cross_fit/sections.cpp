@@ -202,7 +202,7 @@ namespace gonio {
 page::Page report_page(const CrossFitReport& r) {
   using namespace page;
   Page out{"cross_fit", "report cross_fit", "Cross fits: what the other parameters absorb",
-           "What fits with shipped approximations make of roughness, F0 and gamma",
+           "How wrong roughness, F0 and gamma become when fitted with shipped approximations",
            r.findings.sentences};
   out.full = r.full;
   out.first = matrices(r.pictures);

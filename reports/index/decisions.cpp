@@ -387,11 +387,12 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     d.error += worse_below
                    ? fmt::format("; below that roughness, with one bounce, {}", at_most(pays.below))
                    : " at all roughnesses";
-    d.error += fmt::format(" ({}one bounce{}: {})",
-                           taken->error > side_by_side && all.size() > 2
-                               ? "no other, from its own roughness on, leaves less; "
-                               : "",
-                           worse_below ? " at all roughnesses" : "", at_most(without));
+    d.error += fmt::format(
+        " ({}one bounce{}: {})",
+        taken->error > side_by_side && all.size() > 2
+            ? "no other compensation leaves less, each begun at its own best roughness; "
+            : "",
+        worse_below ? " at all roughnesses" : "", at_most(without));
     if (auto below = nearer_below(f, f0, of_image_light, pays); !below.empty())
       unless.push_back(std::move(below));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",

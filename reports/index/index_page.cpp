@@ -341,8 +341,8 @@ std::string index_page_html(const ReportIndex& i) {
          "sample. The dashed line joins the forms that no other beats in "
          "both. One form counts as faster than another if every process that "
          "measured both found it so. A form is left off the line if a more "
-         "exact one may be as fast. Of two forms as exact and as fast as each other, "
-         "it goes through the one with the smaller time. Bars are the spread "
+         "exact one may be as fast. Where two are equally exact and processes disagree which is "
+         "faster, it goes through the one with the smaller time. Bars are the spread "
          "between processes. Hammon's form and Unreal's joint form are one "
          "formula, written in two ways. The error is an RMS over a grid of directions and "
          "widths. The masking row above averages evenly over both cosines and "
@@ -386,10 +386,11 @@ std::string index_page_html(const ReportIndex& i) {
             "light the reference is transport between the facets under even light. For single "
             "lights it is random walks on a ball, lit from 30° and from 120° to the view; the "
             "walks' error is added to each ΔE.",
-            "Compensation begins at the least roughness at which one bounce is off by more than ΔE "
-            "2.3, and from which on compensation is nearer under the worse of the lights: under "
-            "single lights by more than twice the walks' error. Below it one bounce may be off by "
-            "more than 2.3, too. Compensation has to lower the greatest ΔE2000 by 1 or more.",
+            "Compensation begins at the least roughness where two things hold: one bounce is off "
+            "by more than ΔE 2.3, and from there on compensation is nearer under the worse of the "
+            "lights. Under single lights it has to be nearer by more than twice the walks' error. "
+            "Below that roughness one bounce may be off by more than 2.3, too, where compensation "
+            "is no nearer. Compensation has to lower the greatest ΔE2000 by 1 or more.",
             "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
             "Two forms are timed in the same process, and a cost is their difference.",
             "Times are medians over several processes on this machine. A difference counts only "

@@ -98,10 +98,10 @@ void savings(Findings& to, const ScenesRows& r) {
       save, up_to,
       slower.empty()
           ? ""
-          : fmt::format(
-                " In {} others it takes longer than all effects in the forms that "
-                "shaders ship, up to {} times as long: those are not shown to keep the tolerance.",
-                slower.size(), slowest_of(slower)));
+          : fmt::format(" In {} others the plan is slower than all effects in the forms that "
+                        "shaders ship, by up to {} times: those are not shown to keep "
+                        "the tolerance.",
+                        slower.size(), slowest_of(slower)));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

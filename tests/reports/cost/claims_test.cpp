@@ -43,10 +43,11 @@ CostRows fresnels(double exact, double whole) {
 
 TEST(CostClaims, SchlicksMaskingIsHeldAgainstTheJointFormAsItIsPrinted) {
   using enum Claim::Judged;
-  EXPECT_EQ(judged(maskings(0.23, 0.39)).judged, fails);
+  EXPECT_EQ(judged(maskings(0.23, 0.39)).judged, partly) << "0.20 without the clamp";
   EXPECT_EQ(judged(maskings(0.23, 0.21)).judged, holds);
-  EXPECT_EQ(judged(maskings(0.23, 0.225)).judged, fails) << "a tie";
-  EXPECT_EQ(judged(maskings(0.23, 0.39)).figure, "0.23 ns against 0.39 ns, clamped");
+  EXPECT_EQ(judged(maskings(0.23, 0.225)).judged, partly) << "a tie";
+  EXPECT_EQ(judged(maskings(0.23, 0.39)).figure,
+            "0.23 ns against 0.20 ns, and 0.39 ns with a clamp");
 }
 
 TEST(CostClaims, ADifferenceThatOneProcessDoesNotFindIsATie) {
@@ -55,9 +56,8 @@ TEST(CostClaims, ADifferenceThatOneProcessDoesNotFindIsATie) {
   r.rows[0].each = {0.23, 0.23, 0.24}, r.rows[1].each = {0.21, 0.21, 0.22};
   EXPECT_EQ(judged(r).judged, holds);
   r.rows[0].each[2] = 0.215;
-  EXPECT_EQ(judged(r).judged, fails);
-  EXPECT_NE(judged(r).verdict.find("Not every process found the difference to the clamped one."),
-            std::string::npos);
+  EXPECT_EQ(judged(r).judged, partly);
+  EXPECT_NE(judged(r).verdict.find("which not every process found"), std::string::npos);
 }
 
 TEST(CostClaims, ExactFresnelIsSlowIfAWholeModelIs) {

@@ -82,7 +82,8 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
   EXPECT_EQ(row.error,
-            fmt::format("{}{} (no other, from its own roughness on, leaves less; one bounce{}: {})",
+            fmt::format("{}{} (no other compensation leaves less, each begun at its own best "
+                        "roughness; one bounce{}: {})",
                         up_to(kulla),
                         below > kulla ? "; below that roughness, with one bounce, " + at_most(below)
                                       : " at all roughnesses",
