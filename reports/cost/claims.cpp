@@ -34,7 +34,7 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
     return schlick->time.ns > other.time.ns && !is_tie(*schlick, other);
   };
   const auto unsure = [&](const CostRow& other) {
-    return is_tie(*schlick, other) ? ", which not every process found" : "";
+    return is_tie(*schlick, other) ? ", though not in every process that order" : "";
   };
   to.judge("Schlick's masking costs a bit more than the joint approximation", "",
            verdict(longer_than(*joint), longer_than(*plain)),

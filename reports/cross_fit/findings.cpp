@@ -149,7 +149,7 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
         fmt::format("F0 of glass (IOR 1.5), fitted with {} to single scattering, is off {} where "
                     "the fit bounds it. The range is over all metrics and sets of directions{}.",
                     with(form), span(f0->first, f0->second, outward),
-                    whole ? ", except the slice that reaches the horizon" : ""));
+                    whole ? " except one, a slice down to the horizon" : ""));
     if (to.headline.empty()) to.headline = to.sentences.back();
     if (whole)
       to.say(fmt::format(

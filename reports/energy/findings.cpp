@@ -266,7 +266,7 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
            fmt::format("{} forms exceed it", of_all(makers, makes.size())),
            fmt::format(
                "{} forms reflect more light than arrives, at some roughness and "
-               "angle. A form with several tails counts once.{} {} {}.",
+               "angle. A form tried with several exponents counts once.{} {} {}.",
                of_all(makers, makes.size()), words,
                makers == 0 ? "They all" : fmt::format("The other {}", makes.size() - makers),
                largest > 1

@@ -345,11 +345,11 @@ std::string nearer_below(const Facts& f, double f0, bool of_image_light, const C
     if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
         way && c.of_image_light == of_image_light && most_below(*way, pays.from) < least)
       best = &c, least = most_below(*way, pays.from);
-  return best
-             ? fmt::format("one bounce leaves too much below roughness {:g}: then {} there, {}, {}",
-                           pays.from, name_of_form(best->id), delta_at_most(least),
-                           ns_text(best->without_ns + best->ns))
-             : "";
+  return best ? fmt::format(
+                    "or one bounce leaves too much below roughness {:g}: then {} there, {}, {}",
+                    pays.from, name_of_form(best->id), delta_at_most(least),
+                    ns_text(best->without_ns + best->ns))
+              : "";
 }
 
 void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_image_light) {
@@ -387,12 +387,12 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     d.error += worse_below
                    ? fmt::format("; below that roughness, with one bounce, {}", at_most(pays.below))
                    : " at all roughnesses";
-    d.error += fmt::format(
-        " ({}one bounce{}: {})",
-        taken->error > side_by_side && all.size() > 2
-            ? "no other compensation leaves less, each begun at its own best roughness; "
-            : "",
-        worse_below ? " at all roughnesses" : "", at_most(without));
+    d.error += fmt::format(" ({}one bounce{}: {})",
+                           taken->error > side_by_side && all.size() > 2
+                               ? "no other compensation leaves less, even if used only from the "
+                                 "roughness that suits it; "
+                               : "",
+                           worse_below ? " at all roughnesses" : "", at_most(without));
     if (auto below = nearer_below(f, f0, of_image_light, pays); !below.empty())
       unless.push_back(std::move(below));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
@@ -467,9 +467,9 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
                           delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("you accept up to {} of reflected light: then “{}”, {}",
-                           made(*form_of(nearer->form)), in_text(nearer->form),
-                           delta_at_most(nearer->error));
+    d.unless = fmt::format(
+        "you accept that both together reflect up to {} of the light: then “{}”, {}",
+        made(*form_of(nearer->form)), in_text(nearer->form), delta_at_most(nearer->error));
   to.push_back(std::move(d));
 }
 

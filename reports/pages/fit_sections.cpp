@@ -224,7 +224,7 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
   const auto data = std::ranges::find(h.albedo, p.theta_i_deg[at], &AlbedoSample::theta_i_deg);
   const bool has_error = data != h.albedo.end() && data->error > 0;
   std::string words = fmt::format(
-      "Of the angles shown, the fitted model reflects most at θ_i {}{}: {} of the light{}.{}",
+      "Among the angles shown, the fitted model reflects most at θ_i {}{}: {} of the light{}.{}",
       degrees_text(p.theta_i_deg[at]), several ? " in channel " + d.channels[channel] : "",
       share(top),
       known(p.data_albedo[at][channel])

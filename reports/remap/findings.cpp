@@ -80,14 +80,16 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
              others = rows_of(r, form_id::image_k, form_id::smith);
   if (ours.empty() || others.empty()) return;
   const auto d = duel(ours, others);
-  to.judge("k = (r+1)²/8 is right for direct light, r²/2 for image-based", "",
-           verdict(d.nearer >= d.all, 2 * d.nearer >= d.all),
-           fmt::format("G₂ off by {:.2g} against {:.2g}, RMS",
-                       *overall_rms(r, form_id::direct_k, form_id::smith),
-                       *overall_rms(r, form_id::image_k, form_id::smith)),
-           fmt::format(
-               "Smith's masking is the same for all light; (r+1)²/8 is nearer at {} roughnesses.",
-               of_all(d.nearer, d.all)));
+  to.judge(
+      "k = (r+1)²/8 is right for direct light, r²/2 for image-based", "",
+      verdict(d.nearer >= d.all, 2 * d.nearer >= d.all),
+      fmt::format("G₂ off by {:.2g} with (r+1)²/8, {:.2g} with r²/2, RMS",
+                  *overall_rms(r, form_id::direct_k, form_id::smith),
+                  *overall_rms(r, form_id::image_k, form_id::smith)),
+      fmt::format(
+          "Smith's masking is the same for all light; (r+1)²/8 is nearer to it than r²/2 at {} "
+          "roughnesses.",
+          of_all(d.nearer, d.all)));
   for (const double at : {0.1, 0.3})
     if (const auto* a = row_at(ours, at))
       to.say(fmt::format(

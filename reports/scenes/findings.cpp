@@ -98,8 +98,8 @@ void savings(Findings& to, const ScenesRows& r) {
       save, up_to,
       slower.empty()
           ? ""
-          : fmt::format(" In {} others the plan is slower than all effects in the forms that "
-                        "shaders ship, by up to {} times: those are not shown to keep "
+          : fmt::format(" In {} others the plan takes longer, up to {} times as long as all "
+                        "effects in the forms that shaders ship: those forms are not shown to keep "
                         "the tolerance.",
                         slower.size(), slowest_of(slower)));
   to.say(fmt::format(

@@ -129,8 +129,8 @@ Prospect f0(const Health& h, const Survey& s, Verdict of_alpha) {
   if (!h.peak || s.peak_is_noise) return say(weakly, "it scales a lobe that is hardly seen");
   if (h.peak->limit == PeakLimit::samples)
     return say(weakly,
-               "the height of a peak that is not resolved is the instrument's as much as "
-               "the surface's");
+               "the peak is not resolved: its height depends on the instrument as much as on the "
+               "surface");
   return say(
       s.highlight_from_deg <= 45 ? yes : weakly,
       fmt::format("the highlight is {:.3g} times the base and seen from theta_d = {:.0f}° on",

@@ -218,7 +218,8 @@ TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "where all make light, that which makes least";
   EXPECT_EQ(below.unless,
-            "you accept up to 160\u00a0% of reflected light: then “Hammon's diffuse for GGX and "
+            "you accept that both together reflect up to 160\u00a0% of the light: then “Hammon's "
+            "diffuse for GGX and "
             "Smith”, ΔE ≤ 3.5");
 }
 

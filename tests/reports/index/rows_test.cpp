@@ -82,8 +82,8 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
   }
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
   EXPECT_EQ(row.error,
-            fmt::format("{}{} (no other compensation leaves less, each begun at its own best "
-                        "roughness; one bounce{}: {})",
+            fmt::format("{}{} (no other compensation leaves less, even if used only from the "
+                        "roughness that suits it; one bounce{}: {})",
                         up_to(kulla),
                         below > kulla ? "; below that roughness, with one bounce, " + at_most(below)
                                       : " at all roughnesses",
@@ -114,10 +114,9 @@ TEST(IndexRow, NamesTheFormThatLeavesLessBelowWhereItsOwnBegins) {
   }
   const auto row = of(decisions(facts(r)), "Multiple scattering under single lights");
   EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_NE(
-      row.unless.find(
-          "; one bounce leaves too much below roughness 0.5: then Turquin there, ΔE ≤ 5.8, 8.0 ns"),
-      row.unless.npos)
+  EXPECT_NE(row.unless.find("; or one bounce leaves too much below roughness 0.5: then Turquin "
+                            "there, ΔE ≤ 5.8, 8.0 ns"),
+            row.unless.npos)
       << row.unless;
 }
 
@@ -249,7 +248,8 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
                              "; diffuse and lobe together reflect up to 140\u00a0% of the light "
                              "(with Lambert 191\u00a0%)");
   EXPECT_EQ(below.unless,
-            "you accept up to 220\u00a0% of reflected light: then “Disney's diffuse”, ΔE ≤ 1")
+            "you accept that both together reflect up to 220\u00a0% of the light: then “Disney's "
+            "diffuse”, ΔE ≤ 1")
       << "the nearest of them, and what it gains";
 }
 
