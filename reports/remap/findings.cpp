@@ -87,8 +87,8 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
                   *overall_rms(r, form_id::direct_k, form_id::smith),
                   *overall_rms(r, form_id::image_k, form_id::smith)),
       fmt::format(
-          "Smith's masking is the same for all light; (r+1)²/8 is nearer to it than r²/2 at {} "
-          "roughnesses.",
+          "Smith's masking is the same for all light. At {} roughnesses (r+1)²/8 is nearer to it "
+          "than r²/2.",
           of_all(d.nearer, d.all)));
   for (const double at : {0.1, 0.3})
     if (const auto* a = row_at(ours, at))
