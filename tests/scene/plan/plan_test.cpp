@@ -221,7 +221,7 @@ TEST(Plan, IsTheSameForASeedWhateverTheThreads) {
     const tbb::global_control control(tbb::global_control::max_allowed_parallelism, threads);
     auto p = planned(test::car_paint(), test::rim());
     for (auto& e : p.effects) e.ns_saved = 0;
-    p.ns = p.ns_exact = p.speedup = 1;
+    p.ns = p.ns_exact = p.speedup = 1, p.ns_spread = 0;
     for (auto* set : {&p.failed, &p.without_table})
       if (*set) (*set)->ns = 0;
     for (auto& c : p.front) c.ns = c.ns_spread = 0;
