@@ -345,11 +345,11 @@ std::string nearer_below(const Facts& f, double f0, bool of_image_light, const C
     if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
         way && c.of_image_light == of_image_light && most_below(*way, pays.from) < least)
       best = &c, least = most_below(*way, pays.from);
-  return best ? fmt::format(
-                    "or one bounce leaves too much below roughness {:g}: then {} there, {}, {}",
-                    pays.from, name_of_form(best->id), delta_at_most(least),
-                    ns_text(best->without_ns + best->ns))
-              : "";
+  return best
+             ? fmt::format("one bounce leaves too much below roughness {:g}: then {} there, {}, {}",
+                           pays.from, name_of_form(best->id), delta_at_most(least),
+                           ns_text(best->without_ns + best->ns))
+             : "";
 }
 
 void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_image_light) {
@@ -398,7 +398,7 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
                          ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
   }
-  d.unless = fmt::to_string(fmt::join(unless, "; "));
+  d.unless = fmt::to_string(fmt::join(unless, "; or "));
   to.push_back(std::move(d));
 }
 

@@ -16,6 +16,7 @@ namespace gonio {
 namespace {
 
 using svg::number;
+using svg::Spot;
 
 constexpr std::size_t most_labels = 60;  ///< more of them would hide the points
 constexpr double file_height = 320, curve_page_width = 600;
@@ -23,12 +24,8 @@ constexpr double file_height = 320, curve_page_width = 600;
 constexpr std::pair<double, std::string_view> label_widths[] = {
     {310, "labels narrow"}, {curve_page_width, "labels"}, {1000, "labels wide"}};
 
-struct Point {
-  double x, y;
-};
-
 /// Which points of a line are kept so that it moves by no more than can be seen.
-std::vector<bool> kept(const std::vector<Point>& line) {
+std::vector<bool> kept(const std::vector<Spot>& line) {
   constexpr double unseen = 0.06;  // [px]
   std::vector<bool> keep(line.size(), false);
   keep.front() = keep.back() = true;
@@ -123,7 +120,7 @@ class CurveDrawing {
     std::ranges::stable_sort(order, {}, [&](std::size_t i) { return c.x[i]; });
     svg::Path line, points, bars;
     std::string coloured;
-    std::vector<Point> run;  // up to a gap, as on the page: what is not known is not drawn
+    std::vector<Spot> run;  // up to a gap, as on the page: what is not known is not drawn
     const auto put_down = [&] {
       if (run.empty()) return;
       const auto keep = kept(run);
@@ -195,7 +192,7 @@ class CurveDrawing {
   /// Names of points; those on a dashed line come first.
   std::string labels(double width, std::string_view look) const {
     const auto at = [&](const FigureCurve& c, std::size_t i) {
-      return svg::Spot{width * x_.part(c.x[i]), y_at(c.y[i])};
+      return Spot{width * x_.part(c.x[i]), y_at(c.y[i])};
     };
     svg::LabelPlacer placer(width, box_.height);
     std::vector<std::pair<const FigureCurve*, std::size_t>> of;
@@ -231,7 +228,8 @@ class CurveDrawing {
     for (const auto& label : of) {
       const auto& text = label.first->labels[label.second];
       const auto p = at(*label.first, label.second);
-      const auto place = placer.place(p, svg::text_width(text, 11));
+      const double w = svg::text_width(text, 11);
+      const auto place = placer.place(p, w);
       if (!place) continue;
       const auto more = is_shown(label) ? "" : R"( class="more")";
       const double x = p.x * box_.width / width;
@@ -245,7 +243,6 @@ class CurveDrawing {
       }
       // Widths are estimates: a name on the left ends where it should, one on the right begins
       // there.
-      const double w = svg::text_width(text, 11);
       const bool is_left = place->text.x + w / 2 < 0;
       out += box_.text(x, p.y + place->text.y, text,
                        fmt::format(R"( dx="{}"{}{})", number(place->text.x + (is_left ? w : 0)),

@@ -9,6 +9,7 @@ namespace gonio::svg {
 namespace {
 
 constexpr double name_height = 13, descent = 3;
+constexpr double gap = 2;  ///< between a line and its name
 
 bool meet(const Area& a, const Area& b) {
   return a.left < b.right && b.left < a.right && a.top < b.bottom && b.top < a.bottom;
@@ -44,7 +45,6 @@ std::array<Spot, 12> near_places(double w) {
 }
 /// The same farther off.
 std::vector<Spot> far_places(double w) {
-  constexpr double gap = 2;  // between a line and its name
   std::vector<Spot> places;
   for (const double r : {26.0, 40.0, 56.0, 76.0, 100.0})
     for (const auto& [right, down] : {std::pair(0.8, -0.6),
@@ -81,8 +81,8 @@ bool LabelPlacer::is_free(const Area& name, const Spot& own, double from_others)
          });
 }
 
-/// A line that passed a name or another point would be taken for theirs.  Points as near as one dot to the next are told apart by no
-/// line.
+/// A line that passes a name or another point would seem to lead to that.  Points closer to its own than the size of a dot do not
+/// count: no line can tell them apart.
 bool LabelPlacer::leads(const Spot& own, const Spot& end) const {
   constexpr double begin = 6, step = 3, apart = 6;
   const double length = std::hypot(end.x - own.x, end.y - own.y);
@@ -112,7 +112,7 @@ std::optional<LabelPlace> LabelPlacer::place(const Spot& point, double text_widt
     if (const Area name = area(corner); is_free(name, point, distance(name, point) + clearly))
       return take(corner, {});
   for (const Spot& corner : far_places(text_width)) {
-    const double side = corner.x > 0 ? corner.x - 2 : corner.x + text_width + 2;
+    const double side = corner.x > 0 ? corner.x - gap : corner.x + text_width + gap;
     const Spot end{side, corner.y + name_height / 2};
     if (is_free(area(corner), point, clearly) && leads(point, {point.x + end.x, point.y + end.y}))
       return take(corner, end);

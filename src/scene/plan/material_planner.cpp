@@ -419,7 +419,7 @@ class MaterialPlanner {
       if (set.keeps_margin()) {
         if (!p.failed) p.failed = nearest_cheaper(p, set);
         p.ns_spread = c->spread();
-        return settle(p, set);
+        return take(p, look_, set);
       }
       candidates_[i].failed = {set.error.worst, set.error.bound};
       ++p.passed_over;
@@ -428,14 +428,9 @@ class MaterialPlanner {
     p.only_unseen = true;
     const auto same = nearest();
     const std::array surface{look_.surface(same)};
-    settle(p, checked(same, surface[0], times_of(surface, reference_.points)[0].ns,
-                      operations_of(surface[0], reference_.points), options_.fresh));
-  }
-  void settle(MaterialPlan& p, const JudgedSet& set) {
-    p.checked = set.error;
-    p.holds = set.keeps_margin();
-    p.reference_error = set.reference_error;
-    take(p, look_, set.forms, set.ns, set.ops);
+    take(p, look_,
+         checked(same, surface[0], times_of(surface, reference_.points)[0].ns,
+                 operations_of(surface[0], reference_.points), options_.fresh));
   }
   /// Of the sets with one form cheaper than a set that is taken, the nearest, by the points that sets are compared on.
   std::optional<JudgedSet> nearest_cheaper(const MaterialPlan& p, const JudgedSet& taken) const {
@@ -514,19 +509,22 @@ MaterialPlan plan_material(const Lit& lit, std::size_t material, const PlanOptio
   return MaterialPlanner(lit, material, options).plan();
 }
 
-void take(MaterialPlan& p, const Look& look, const Forms& forms, double ns, double ops) {
-  const Surface surface = look.surface(forms);
-  p.forms = forms;
-  p.ns = ns;
+void take(MaterialPlan& p, const Look& look, const JudgedSet& set) {
+  const Surface surface = look.surface(set.forms);
+  p.checked = set.error;
+  p.holds = set.keeps_margin();
+  p.reference_error = set.reference_error;
+  p.forms = set.forms;
+  p.ns = set.ns;
   // What computes the same takes as long, whatever a noisy clock says.
-  if (key_of(surface) == key_of(shipped_surface(look))) p.ns_exact = ns;
+  if (key_of(surface) == key_of(shipped_surface(look))) p.ns_exact = set.ns;
   p.spec = surface.spec();
   p.parameters = surface.parameters();
   p.speedup = p.ns_exact / p.ns;
-  p.ops_saved = p.ops_exact > 0 ? 1 - ops / p.ops_exact : 0;  // a constant has no operations
+  p.ops_saved = p.ops_exact > 0 ? 1 - set.ops / p.ops_exact : 0;  // a constant has no operations
   for (auto& e : p.effects) {
-    e.keep = forms.keeps(e.effect);
-    e.form = forms.name(e.effect);
+    e.keep = set.forms.keeps(e.effect);
+    e.form = set.forms.name(e.effect);
     if (e.effect == Effect::compensation && p.needs_table())
       e.ns_saved = p.table_ns_saved, e.ops_saved = p.table_ops_saved;
   }

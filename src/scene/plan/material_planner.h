@@ -15,8 +15,8 @@ inline constexpr std::uint64_t choosing = 1, checking = 2;
 /// Plan of a material that is seen; where the scene has a budget, the front and no set of it yet.
 MaterialPlan plan_material(const Lit&, std::size_t material, const PlanOptions&);
 
-/// Puts forms into a plan, and what follows from them.
-void take(MaterialPlan&, const Look&, const Forms&, double ns, double ops);
+/// Puts a set that was judged into a plan, and what follows from it.
+void take(MaterialPlan&, const Look&, const JudgedSet&);
 
 /// Points of a check: fewer where each has the many directions that a lookup is compared with.
 std::size_t fresh_points(const Scene&, const PlanOptions&, const Surface&);

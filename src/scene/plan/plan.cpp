@@ -90,12 +90,6 @@ void give_reasons(MaterialPlan& p, const Tolerance& t, bool has_budget) {
   }
 }
 
-/// A set of forms on fresh points.
-struct FreshCheck {
-  Judgement error;
-  double reference_error;
-};
-
 /// Shares the scene's time out, and checks what each material got.  Where a set fails there that had seemed to keep the tolerance, the
 /// time is shared out anew.
 void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
@@ -110,19 +104,21 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
                                 sharer.choices.size()});
     sharers.push_back(std::move(sharer));
   }
-  std::vector<std::map<std::size_t, FreshCheck>> checked(plan.materials.size());
+  std::vector<std::map<std::size_t, JudgedSet>> checked(plan.materials.size());
   const auto index_of = [&](const MaterialPlan& m) {
     return static_cast<std::size_t>(std::ranges::find(s.materials, m.name, &Material::name) -
                                     s.materials.begin());
   };
-  const auto check = [&](const MaterialPlan& m, const Forms& forms) -> FreshCheck {
+  const auto check = [&](const MaterialPlan& m, const Candidate& c) -> JudgedSet {
     const auto index = index_of(m);
     const Look& look = lit.looks[index];
-    const Surface exact = look.surface(look.exact()), surface = look.surface(forms);
+    const Surface exact = look.surface(look.exact()), surface = look.surface(c.forms);
     FreshDifferences fresh;
     fresh.draw_to(fresh_points(s, options, surface), s, lit.drawer(index, options.directions),
                   checking, exact, surface);
-    return {judge(fresh.all, s.tolerance), judge(fresh.own, s.tolerance).quantile};
+    return {c.forms,  c.ns,
+            c.ops,    judge(fresh.all, s.tolerance),
+            m.margin, judge(fresh.own, s.tolerance).quantile};
   };
   Shares shares;
   for (bool again = true; again;) {
@@ -132,26 +128,21 @@ void share(Plan& plan, const Lit& lit, const PlanOptions& options) {
       auto& m = plan.materials[i];
       const std::size_t k = shares.choice[i];
       if (checked[i].contains(k)) continue;
-      const auto& found = checked[i].emplace(k, check(m, m.sets[k].forms)).first->second;
-      if (m.margin.is_kept(found.error)) continue;
+      const auto& found = checked[i].emplace(k, check(m, m.sets[k])).first->second;
+      if (found.keeps_margin()) continue;
       auto& choice = sharers[i].choices[k];
       again |= !choice.breaks && choice.error <= s.tolerance.limit;
       choice.error = std::max(choice.error, found.error.upper);
       choice.breaks = true;
       for (auto& each : m.front)
-        if (each.forms == m.sets[k].forms) each.failed = {found.error.worst, found.error.bound};
+        if (each.forms == found.forms) each.failed = {found.error.worst, found.error.bound};
     }
   }
   plan.budget = Budget{*s.budget_ns, shares.ns, 0, shares.fits};
   for (std::size_t i = 0; i < plan.materials.size(); ++i) {
     auto& m = plan.materials[i];
-    const auto& c = m.sets[shares.choice[i]];
-    take(m, lit.looks[index_of(m)], c.forms, c.ns, c.ops);
-    m.ns_spread = c.spread();
-    const auto& found = checked[i].at(shares.choice[i]);
-    m.checked = found.error;
-    m.reference_error = found.reference_error;
-    m.holds = m.margin.is_kept(m.checked);
+    take(m, lit.looks[index_of(m)], checked[i].at(shares.choice[i]));
+    m.ns_spread = m.sets[shares.choice[i]].spread();
     if (!m.needs_table()) m.without_table.reset();
     m.could_hold = std::ranges::any_of(m.front, [&](const Candidate& each) {
       return each.error.keeps(s.tolerance) && !each.failed;
