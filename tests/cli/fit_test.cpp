@@ -44,7 +44,7 @@ TEST(Fit, LinesAreWrappedBelowTheirTextOnATerminalAndWholeInAPipe) {
   const std::string piped = gonio(f, "fit t.csv").out;
   EXPECT_NE(piped.find("beware  beyond noise the model is off"), piped.npos);
   EXPECT_NE(piped.find("; intervals are widened\nbeware  the model is most clearly off "
-                       "in the region around theta_h "),
+                       "around theta_h "),
             piped.npos)
       << piped;
 }
