@@ -33,17 +33,14 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
   const auto longer_than = [&](const CostRow& other) {
     return schlick->time.ns > other.time.ns && !is_tie(*schlick, other);
   };
-  const auto unsure = [&](const CostRow& other) {
-    return is_tie(*schlick, other) ? ", though not in every process that order" : "";
-  };
   to.judge("Schlick's masking costs a bit more than the joint approximation", "",
            verdict(longer_than(*joint), longer_than(*plain)),
            fmt::format("{} against {}, and {} with a clamp", ns(schlick->time), ns(plain->time),
                        ns(joint->time)),
-           fmt::format("in float, from cache, it takes {}. The joint form takes {}{}. With its "
-                       "clamp it takes {}{}.",
-                       ns(schlick->time), ns(plain->time), unsure(*plain), ns(joint->time),
-                       unsure(*joint)));
+           std::string("times are in float, from cache.") +
+               (is_tie(*schlick, *plain) || is_tie(*schlick, *joint)
+                    ? " Not every process found that order."
+                    : ""));
 }
 
 void exact_is_slow(Findings& to, const CostRows& r) {
@@ -57,10 +54,8 @@ void exact_is_slow(Findings& to, const CostRows& r) {
       "the exact Fresnel equations are slow", "",
       verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
       fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
-      fmt::format(
-          "for a dielectric the term by itself takes {:.1f} times as long as Schlick's. A whole "
-          "GGX model composed with it takes {:.2f} times as long, in float columns in cache.",
-          term, whole));
+      "the form is that of dielectrics, the model GGX composed of its terms. Times are in float, "
+      "from cache.");
 }
 
 void pow5(Findings& to, const CostRows& r) {
@@ -76,8 +71,8 @@ void pow5(Findings& to, const CostRows& r) {
       verdict(ratio > 1 && !is_tie({by_pow->time}, {by_hand->time})),
       fmt::format("pow {}, Pow5 {}", ns(by_pow->time), ns(by_hand->time)),
       fmt::format(
-          "in a loop that the compiler vectorises where it can, pow takes {:.1f} times as long. "
-          "Their values differ only by rounding.",
+          "pow takes {:.1f} times as long, in a loop that the compiler may vectorise. The values "
+          "differ only by rounding.",
           ratio));
 }
 

@@ -28,10 +28,6 @@ std::string error_text(double e) {
   constexpr double rounding = 1e-5;
   return e < rounding ? "that of only rounding" : fmt::format("{:.2g}", e);
 }
-std::string capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
-  return text;
-}
 
 class Sayings {
  public:

@@ -150,7 +150,11 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
                     "the fit bounds it. The range is over all metrics and sets of directions{}.",
                     with(form), span(f0->first, f0->second, outward),
                     whole ? " except one, a slice down to the horizon" : ""));
-    if (to.headline.empty()) to.headline = to.sentences.back();
+    if (to.headline.empty())
+      to.headline = fmt::format(
+          "F0 of glass comes out off {} when fitted with {} to slices of "
+          "exact single scattering.",
+          span(f0->first, f0->second, outward), with(form));
     if (whole)
       to.say(fmt::format(
           "On a slice down to the horizon, where no instrument is trusted, it is off {}.",
@@ -267,13 +271,10 @@ void published(Findings& to, const CrossFitRows& r) {
       static_cast<std::size_t>(std::ranges::count_if(tails, [](double c) { return c < 2; }));
   const double ggx = middle_of(each(r, &PublishedFit::ggx_log_rms)),
                gtr = middle_of(each(r, &PublishedFit::gtr_log_rms));
-  to.judge(
-      "for many materials even GGX's tail is not long enough", "",
-      verdict(2 * longer > tails.size(), longer > 0),
-      fmt::format("{} by their published exponents", of_all(longer, tails.size())),
-      fmt::format("Löw and others fitted measured materials of MERL. By their exponents the tail "
-                  "falls off more slowly than GGX's for {} materials.",
-                  of_all(longer, tails.size())));
+  to.judge("for many materials even GGX's tail is not long enough", "",
+           verdict(2 * longer > tails.size(), longer > 0),
+           fmt::format("{} by their published exponents", of_all(longer, tails.size())),
+           "these are fits of measured materials of MERL by Löw and others.");
   std::vector<double> gamma;
   for (const auto& p : r.published)
     if (p.gamma_determined) gamma.push_back(p.gamma);

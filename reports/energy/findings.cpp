@@ -245,34 +245,21 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
   if (r.forms.empty()) return;
   const EnergyForm* most = nullptr;
   std::map<std::string, bool> makes;  // by form: one whose tail was varied is one
-  double largest = 0;                 // of those that make none
   for (const auto& f : r.forms) {
-    const double albedo = brightest(f).albedo;
     makes[f.model.empty() ? std::string(f.masking) : std::string(f.model)] |= makes_light(f);
-    if (!makes_light(f))
-      largest = std::max(largest, albedo);
-    else if (!most || albedo > brightest(*most).albedo)
-      most = &f;
+    if (makes_light(f) && (!most || brightest(f).albedo > brightest(*most).albedo)) most = &f;
   }
   const auto makers = static_cast<std::size_t>(
       std::ranges::count(makes, true, &std::pair<const std::string, bool>::second));
-  std::string words;
+  std::string worst;
   if (most) {
     const auto& at = brightest(*most);
-    words = fmt::format(" Worst: {}, {:.3g} times as much at {}.", words_for(*most), at.albedo,
-                        place(at.roughness, at.mu));
+    worst = fmt::format("worst: {}, {:.3g} times the light that arrives, at {}.", words_for(*most),
+                        at.albedo, place(at.roughness, at.mu));
   }
   to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
-           fmt::format("{} forms exceed it", of_all(makers, makes.size())),
-           fmt::format(
-               "{} forms reflect more light than arrives, at some roughness and "
-               "angle. A form tried with several exponents counts once.{} {} {}.",
-               of_all(makers, makes.size()), words,
-               makers == 0 ? "They all" : fmt::format("The other {}", makes.size() - makers),
-               largest > 1
-                   ? fmt::format("exceed what arrives by {} at most, within their integral's error",
-                                 percent_at_most(std::max(largest - 1, 1e-6)))
-                   : fmt::format("reflect {} of it at most", rounded_up(largest, 4))));
+           fmt::format("{} maskings and whole models exceed it", of_all(makers, makes.size())),
+           std::move(worst));
 }
 
 void energy_does_not_stay(Findings& to, const EnergyRows& r) {
@@ -282,10 +269,9 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
   to.judge("as roughness grows the highlight widens and dims so that energy stays", "",
            verdict(rough.albedo > 0.99),
            fmt::format("{} is reflected at roughness {:g}", percent(rough.albedo), rough.roughness),
-           fmt::format("it dims more than that. With nothing absorbed, one bounce under GGX "
-                       "reflects {} of the light where it is smoothest, and {} at roughness {:g}. "
-                       "The missing light met a second facet.",
-                       percent(smooth.albedo), percent(rough.albedo), rough.roughness));
+           fmt::format("this is one bounce under GGX, with nothing absorbed. At roughness {:g} it "
+                       "is {}.",
+                       smooth.roughness, percent(smooth.albedo)));
 }
 
 void fixed_coat(Findings& to, const EnergyRows& r) {
@@ -301,11 +287,11 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   const auto& row = coat->rows[at];
   to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",
            "Burley 2012, Physically-Based Shading at Disney", verdict_on_small(most),
-           fmt::format("{} in place of {}", percent(row.albedo), percent(smith->rows[at].albedo)),
-           fmt::format(
-               "largest error at {}. Before Fresnel the coat reflects {}; with height-correlated "
-               "Smith for its own distribution, {}.",
-               place(row.roughness, row.mu), percent(row.albedo), percent(smith->rows[at].albedo)));
+           fmt::format("it reflects {} in place of {}", percent(row.albedo),
+                       percent(smith->rows[at].albedo)),
+           fmt::format("this is the largest error, at {}, before Fresnel. It is compared with the "
+                       "Smith masking of the coat's own distribution.",
+                       place(row.roughness, row.mu)));
 }
 
 void clamped_at_2048(Findings& to, const EnergyRows& r) {
@@ -313,24 +299,21 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
   // D without 1/π is 1/α² at its peak.
   const double reached = std::pow(2048.0, -0.25);
   const auto& most = *std::ranges::max_element(r.claims.clamped, {}, &ClaimRows::Clamped::lost);
-  to.judge(
-      "the mobile form's clamp of D at 2048 hardly shows", "", verdict_on_small(most.lost),
-      fmt::format("{} of the highlight is lost at roughness {:g}", percent(most.lost),
-                  most.roughness),
-      fmt::format("it is reached only below roughness {:.3f}. Seen head on, it takes {} of the "
-                  "highlight's light at roughness {:g}.",
-                  reached, percent(most.lost), most.roughness));
+  to.judge("the mobile form's clamp of D at 2048 hardly shows", "", verdict_on_small(most.lost),
+           fmt::format("{} of the highlight is lost at roughness {:g}", percent(most.lost),
+                       most.roughness),
+           fmt::format("the clamp acts below roughness {:.3f}. The loss is that seen head on.",
+                       reached));
 }
 
 void look_of_the_simple_form(Findings& to, const EnergyRows& r) {
   if (!find_form(r.forms, "model.ue_mobile_simple") || r.claims.simple_form.empty()) return;
   const auto& most = *std::ranges::max_element(r.claims.simple_form, {}, &ClaimRows::Look::delta_e);
-  to.judge("the simple mobile form keeps the look", "", verdict(most.delta_e <= 1),
-           fmt::format("ΔE2000 {:.2g} at {}", most.delta_e, place(most.roughness, most.mu)),
-           fmt::format("under even light it differs from GGX with Smith and Schlick by ΔE2000 "
-                       "{:.2g}. That is for F0 = {:g} at {}. Smoother surfaces were not looked at. "
-                       "It has no Fresnel, and no angles in its visibility.",
-                       most.delta_e, most.f0, place(most.roughness, most.mu)));
+  to.judge(
+      "the simple mobile form keeps the look", "", verdict(most.delta_e <= 1),
+      fmt::format("ΔE2000 {:.2g} at {}", most.delta_e, place(most.roughness, most.mu)),
+      fmt::format("it is compared with GGX, Smith and Schlick under even light, for F0 = {:g}.",
+                  most.f0));
 }
 
 void deviation_of_slopes(Findings& to, const EnergyRows& r) {
@@ -341,10 +324,8 @@ void deviation_of_slopes(Findings& to, const EnergyRows& r) {
   to.judge("alpha is the standard deviation of the slopes", "",
            verdict(growth < 1e-3 && std::abs(last.deviation - 1) < 1e-3),
            fmt::format("{:.2f} α for Beckmann, none for GGX", r.claims.beckmann_deviation),
-           fmt::format("Beckmann: {:.4f} α. GGX has no standard deviation: {:.3g} α over slopes up "
-                       "to {:g} α. Up to {:g} α it is {:.3g} α, growing without limit.",
-                       r.claims.beckmann_deviation, first.deviation, first.most, last.most,
-                       last.deviation));
+           fmt::format("over slopes up to {:g} α GGX's is {:.3g} α, and it grows with that limit.",
+                       last.most, last.deviation));
 }
 
 void solid_angle_of_half(Findings& to, const EnergyRows& r) {

@@ -112,4 +112,9 @@ std::string brief_name(std::string_view form) {
   return name.size() <= brief ? name : std::string(short_id(form));
 }
 
+std::string capital(std::string text) {
+  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
+  return text;
+}
+
 }  // namespace gonio

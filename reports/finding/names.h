@@ -23,5 +23,7 @@ std::string name_of_form(std::string_view form);
 std::string in_text(std::string_view form);
 /// Name for a picture, where there is little room: the same where it is short, else the id without its role.
 std::string brief_name(std::string_view form);
+/// The text as a sentence begins: its first letter large, if it is one of ASCII.
+std::string capital(std::string text);
 
 }  // namespace gonio

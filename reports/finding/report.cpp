@@ -1,11 +1,14 @@
 #include "reports/finding/report.h"
 
+#include "reports/finding/names.h"
+
 #include <fmt/format.h>
 
 namespace gonio {
 
 std::string sentence(const Claim& c) {
-  return fmt::format("“{}” {}: {}", c.claim, name_of(c.judged), c.verdict);
+  return fmt::format("“{}” {}. {}.{}{}", c.claim, name_of(c.judged), capital(c.figure),
+                     c.verdict.empty() ? "" : " ", capital(c.verdict));
 }
 
 void Findings::judge(std::string_view claim,

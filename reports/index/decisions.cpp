@@ -81,8 +81,8 @@ std::string cost_text(const Candidate& taken, const Candidate& cheap) {
 }
 /// What to take instead where time is what lacks, what that saves and what it leaves.
 std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::string_view left) {
-  return fmt::format("time is short: then {}, {} faster, {}", name_of_form(cheaper.form),
-                     ns_text(more(cheaper, taken).ns), left);
+  return fmt::format("time is short: then {}, {}; it saves {}", name_of_form(cheaper.form), left,
+                     ns_text(more(cheaper, taken).ns));
 }
 /// Aside on the cost, where both stand in a whole model, composed of its terms: what is left of it where memory is the limit, if not
 /// every process found it.
@@ -91,7 +91,7 @@ std::string streaming_aside(const Facts& f, std::string_view taken, std::string_
   if (!a || !b) return {};
   constexpr double seen = 0.1;  // of the model's time, that a spread must not hide
   const auto d = more(*b, *a);
-  if ((d.survives && d.ns > 0) || d.spread_ns > seen * b->ns) return {};
+  if (a->each.size() < 2 || (d.survives && d.ns > 0) || d.spread_ns > seen * b->ns) return {};
   return fmt::format(" ({}{:.2f} ± {:.2f} ns in a whole model that reads its inputs from memory)",
                      d.ns < 0 ? "−" : "+", std::abs(d.ns), d.spread_ns);
 }
@@ -100,7 +100,7 @@ std::string saved_aside(const Facts& f, std::string_view taken, std::string_view
   const auto *a = time_of(f.whole, taken), *b = time_of(f.whole, cheaper);
   if (!a || !b) return {};
   const auto d = more(*b, *a);
-  return fmt::format("; in a whole model it saves {:.2f} ± {:.2f} ns", d.ns, d.spread_ns);
+  return fmt::format(", in a whole model {:.2f} ± {:.2f} ns", d.ns, d.spread_ns);
 }
 
 // --- Masking ---
@@ -345,11 +345,10 @@ std::string nearer_below(const Facts& f, double f0, bool of_image_light, const C
     if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
         way && c.of_image_light == of_image_light && most_below(*way, pays.from) < least)
       best = &c, least = most_below(*way, pays.from);
-  return best
-             ? fmt::format("one bounce leaves too much below roughness {:g}: then {} there, {}, {}",
-                           pays.from, name_of_form(best->id), delta_at_most(least),
-                           ns_text(best->without_ns + best->ns))
-             : "";
+  return best ? fmt::format("roughness below {:g} matters: then {} there, {}, {}", pays.from,
+                            name_of_form(best->id), delta_at_most(least),
+                            ns_text(best->without_ns + best->ns))
+              : "";
 }
 
 void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_image_light) {
@@ -382,17 +381,7 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     const auto pays = *compensated(*scattering_of(f, taken->form, f0, of_image_light), *nothing);
     d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), pays.from);
-    d.error = delta_at_most(pays.error);
-    const bool worse_below = pays.below > pays.error;
-    d.error += worse_below
-                   ? fmt::format("; below that roughness, with one bounce, {}", at_most(pays.below))
-                   : " at all roughnesses";
-    d.error += fmt::format(" ({}one bounce{}: {})",
-                           taken->error > side_by_side && all.size() > 2
-                               ? "no other compensation leaves less, even if used only from the "
-                                 "roughness that suits it; "
-                               : "",
-                           worse_below ? " at all roughnesses" : "", at_most(without));
+    d.error += fmt::format(" (one bounce: {})", at_most(without));
     if (auto below = nearer_below(f, f0, of_image_light, pays); !below.empty())
       unless.push_back(std::move(below));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
@@ -415,11 +404,10 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
                                               at_most(*s.from_side))
                                 : fmt::format("RMS {:.1g} of E", s.rms),
        s.ns ? fmt::format("{} a pixel, in all", ns_text(*s.ns)) : "one look-up",
-       s.grazing
-           ? fmt::format("the rim matters: then integrate over directions; the split sum's mean ΔE "
-                         "there reaches {} (cosine 0.1)",
-                         rounded_up(*s.grazing))
-           : ""});
+       s.grazing ? fmt::format(
+                       "the rim matters (mean ΔE {} at cosine 0.1): then integrate over directions",
+                       at_most(*s.grazing))
+                 : ""});
 }
 
 /// Diffuse terms by how they look at equal albedo: matte surfaces beside EON, and what lies below a lobe beside EON coupled by albedos.
@@ -458,18 +446,15 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
              cost_text(*taken, cheap),
              ""};
   if (taken->form != cheap_id && own)
-    d.error +=
-        below_lobe
-            ? fmt::format(
-                  "; diffuse and lobe together reflect up to {} of the light (with Lambert {})",
-                  made(*form_of(taken->form)), made(*lambert))
-            : fmt::format(" ({}Lambert: {})", is_exact(*taken) ? "it is the reference; " : "",
-                          delta_at_most(*own));
+    d.error += below_lobe
+                   ? fmt::format("; with the lobe it reflects up to {} of the light (Lambert: {})",
+                                 made(*form_of(taken->form)), made(*lambert))
+                   : fmt::format(" (Lambert: {})", delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format(
-        "you accept that both together reflect up to {} of the light: then “{}”, {}",
-        made(*form_of(nearer->form)), in_text(nearer->form), delta_at_most(nearer->error));
+    d.unless = fmt::format("up to {} of the light may be reflected: then “{}”, {}",
+                           made(*form_of(nearer->form)), in_text(nearer->form),
+                           delta_at_most(nearer->error));
   to.push_back(std::move(d));
 }
 
@@ -501,8 +486,8 @@ void precision(std::vector<Decision>& to, const Facts& f) {
        fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
        "ndf.ggx",
        fmt::format(
-           "≤ {0} where F0 is {2:g} or more, light and view up to {1:.0f}°, with "
-           "the cosines in half as well (a search found no larger error, which is no proof)",
+           "≤ {0} as far as a search found (F0 of {2:g} or more, angles up to {1:.0f}°, cosines in "
+           "half, too)",
            percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),

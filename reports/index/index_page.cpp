@@ -6,6 +6,7 @@
 
 #include "base/rounded.h"
 #include "base/text.h"
+#include "reports/finding/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/picture/document.h"
@@ -205,33 +206,39 @@ Cell with_aside(const std::string& broken, std::string look = {}, std::string ti
       std::move(look)};
 }
 
-Part lead(const ReportIndex& i) {
+std::vector<Part> lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
-  std::string text =
-      "A form is one formula for a part of a model. “Error left” compares it with exact Fresnel, "
-      "exact (height-correlated) Smith masking and all bounces of light. Matte surfaces are "
-      "compared with energy-preserving Oren–Nayar (EON). A diffuse term below a lobe is compared "
-      "with EON coupled by albedos. “Costs” is the "
-      "CPU time that one evaluation in float takes beyond the usual form. "
-      "Usual "
-      "are Schlick's masking with k = (r+1)²/8, Schlick's Fresnel, GGX, one bounce and Lambert. G₂ "
-      "is "
-      "masking and shadowing together; cosines are those to the normal.";
+  std::string cost = "CPU time of one evaluation in float beyond the usual form";
+  if (m)
+    cost += fmt::format(", on {} with {}, from cache", m->cpu.empty() ? "this machine" : m->cpu,
+                        m->isa);
+  cost += ".";
   if (m && m->model_ns)
-    text += fmt::format(" A whole GGX highlight takes {} ns.", significant(*m->model_ns, 2));
-  text += m ? fmt::format(" Measured on {} with {} from cache, {} setting.",
-                          m->cpu.empty() ? "this machine" : m->cpu, m->isa, setting_of(i))
-            : fmt::format(" {} setting.", page::capital(setting_of(i)));
+    cost += fmt::format(" A whole GGX highlight takes {} ns.", significant(*m->model_ns, 2));
   if (m && m->others && *m->others >= 0.25)
-    text += fmt::format(
+    cost += fmt::format(
         " The machine was busy: other programs took {} of {} processors, so times may be too long.",
         plain(*m->others, 2), m->threads);
-  if (!i.facts.fresnel.empty())
-    text += fmt::format(
-        " ΔE is CIEDE2000: nobody sees {} or less, and up to {} it shows only side by "
-        "side; “{}” has the sources.",
-        plain(just_seen), plain(side_by_side), fresnel_title);
-  return Prose{text, "lead"};
+  const auto colour =
+      i.facts.fresnel.empty()
+          ? ""
+          : fmt::format("CIEDE2000. Nobody sees {} or less. Up to {} is seen only side by side.",
+                        plain(just_seen), plain(side_by_side));
+  return {Prose{"A form is one formula for one part of a material model. For each part the table "
+                "names the form to ship.",
+                "lead"},
+          Pairs{{{"Error left",
+                  {"The distance to exact Fresnel, to height-correlated Smith masking and to all "
+                   "bounces of light. For diffuse it is the distance to energy-preserving "
+                   "Oren–Nayar (EON), which below a lobe gets the light that the lobe lets "
+                   "through."}},
+                 {"Costs", {cost}},
+                 {"Usual forms",
+                  {"Schlick's Fresnel, Schlick's masking with k = (r+1)²/8, GGX, one bounce, "
+                   "Lambert."}},
+                 {"ΔE", {colour}},
+                 {"G₂", {"Masking and shadowing together."}},
+                 {"r, cosines", {"Roughness r is √α. Cosines are those to the normal."}}}}};
 }
 
 Section what_to_ship(const ReportIndex& i) {
@@ -269,16 +276,13 @@ Section fresnel(const ReportIndex& i) {
   }
   return {
       fresnel_title,
-      "Each number is the greatest ΔE2000 of a rough surface under even light, over "
-      "roughnesses of 0.1 or more and 19 views (cosine 0.1 to 1), rounded up.",
+      "The greatest ΔE2000 of a rough surface under even light, over roughness and view.",
       {t,
        Markup{fmt::format(
            R"(<p class="small key-of"><span class="unseen">unseen, to {0}</span><span class="beside">side by side, to {1}</span><span class="shows">seen</span><span class="unknown">– not computed</span></p>)",
            plain(just_seen), plain(side_by_side))},
-       Prose{fmt::format("ΔE2000 is scaled so that nobody sees a difference of {0} or less "
-                         "(CIE 142-2001). Up to {1} a difference is seen only side by side: "
-                         "that is the difference which observers could just see in CIELAB (Mahy, "
-                         "Van Eycken and Oosterlinck 1994).",
+       Prose{fmt::format("The thresholds: {0} is from CIE 142-2001. {1} is the least difference "
+                         "that observers saw in CIELAB (Mahy, Van Eycken and Oosterlinck 1994).",
                          plain(just_seen), plain(side_by_side)),
              "small muted"}},
       "fresnel"};
@@ -317,8 +321,7 @@ Section claims(const ReportIndex& i) {
   if (rows.empty()) return {};
   return {
       "Claims",
-      "Claims in circulation among people who write shaders. A click on one shows the figures "
-      "behind its verdict, and where it was published, if it was.",
+      "Claims in circulation among people who write shaders. A click shows what was tested.",
       {Markup{
           R"(<div class="told-by-cell said"><table><thead><tr><th>verdict</th><th>claim</th><th>figure</th></tr></thead><tbody>)" +
           rows + "</tbody></table></div>"}}};
@@ -332,22 +335,16 @@ namespace gonio {
 std::string index_page_html(const ReportIndex& i) {
   using namespace page;
   Page out{"", "", "Which shortcuts can you ship?", "Which shortcuts can you ship?"};
-  out.first = {lead(i)};
+  out.first = lead(i);
   out.sections = {what_to_ship(i), fresnel(i)};
   if (!i.front.figures.empty())
     out.sections.push_back(
         {"What masking's accuracy costs",
-         "Error of G₂ against height-correlated Smith, over the time of a "
-         "sample. The dashed line joins the forms that no other beats in "
-         "both. One form counts as faster than another if every process that "
-         "measured both found it so. A form is left off the line if a more "
-         "exact one may be as fast. Where two forms are equally exact and processes disagree "
-         "which is faster, the line goes through the one with the smaller time. Bars are the "
-         "spread "
-         "between processes. Hammon's form and Unreal's joint form are one "
-         "formula, written in two ways. The error is an RMS over a grid of directions and "
-         "widths. The masking row above averages evenly over both cosines and "
-         "roughness, so its figures differ.",
+         "The error of G₂ against height-correlated Smith, over the time of one sample. A form is "
+         "on the dashed line if every process found each more exact form slower. Of equally exact "
+         "forms, the faster is on it. Bars are the spread between processes. Hammon's way to write "
+         "Unreal's joint form is a point of its own. The RMS error is over other directions than "
+         "that of the masking row.",
          {page::Shown{i.front.figures[0].family, {}, 440}},
          "time"});
   out.sections.push_back(cards(i));
@@ -355,52 +352,55 @@ std::string index_page_html(const ReportIndex& i) {
   out.sections.push_back(
       {"How it was measured",
        "",
-       {Points{
-           {fmt::format(
-                "The cheapest form is taken whose error is small: up to ΔE2000 {}, or for "
-                "masking an RMS error of {} in G₂. Where every form leaves more, the nearest is "
-                "taken.",
-                plain(side_by_side), plain(small_masking_error)),
-            fmt::format(
-                "A diffuse form's reflected light is computed from cosine {:g} on. A form that "
-                "reflects more than {} of the incoming light is left out. If all forms do, the one "
-                "that reflects least is taken, whatever its ΔE.",
-                least_diffuse_cosine, page::percent(no_light_made, 4)),
-            "Among forms whose error is small and that take the same time, the usual one is taken, "
-            "or else the nearest. GGX and the split sum are judged by no threshold: they are "
-            "what people ship.",
-            "Colours of Fresnel forms are those of a rough surface under even light of D65, with a "
-            "perfect diffuser as white and without a tone map. Views are from cosine 0.1 to 1, by "
-            "0.05; "
-            "roughness "
-            "is 0.1 or more. A metal's true colour is that of its spectrum. Forms at three "
-            "wavelengths use 650, 550 and 450 nm.",
-            fmt::format("Diffuse forms are compared on a ball, where the cosines of light and view "
-                        "are {:g} or more.",
-                        least_colour_cosine),
-            "For the split sum's ΔE the exposure gives a white ball half of the display's white.",
-            "A ≤ is the greatest value at the roughnesses, views and points of a ball that were "
-            "computed. Between them it may be more, most so under single lights.",
-            "Masking is compared with height-correlated Smith for GGX: the RMS error in G₂ "
-            "over both cosines from 0.05 to 1 and over roughness.",
-            "Bounces are compared under Schlick's Fresnel, from cosine 0.1 on. For image-based "
-            "light the reference is transport between the facets under even light. For single "
-            "lights it is random walks on a ball, lit from 30° and from 120° to the view; the "
-            "walks' error is added to each ΔE.",
-            "Compensation begins at the least roughness where two things hold: one bounce is off "
-            "by more than ΔE 2.3, and from there on compensation is nearer under the worse of the "
-            "lights. Under single lights it has to be nearer by more than twice the walks' error. "
-            "Below that roughness one bounce may be off by more than 2.3, too, where compensation "
-            "is no nearer. Compensation has to lower the greatest ΔE2000 by 1 or more.",
-            "Masking, Fresnel and diffuse forms are timed by themselves, GTR in a whole highlight. "
-            "Two forms are timed in the same process, and a cost is their difference.",
-            "Times are medians over several processes on this machine. A difference counts only "
-            "if every process found it to the same side, and its median is larger than the spread "
-            "and than 3 % of the time taken.",
-            "Under image-based light only Fdez-Agüera's compensation is timed and compared, which "
-            "was "
-            "made for the split sum.",
-            "Compensations are timed in one process, one light and view at a time."}}},
+       {Pairs{
+           {{"Choice",
+             {fmt::format(
+                 "The cheapest form with a small error: up to ΔE2000 {}, or an RMS error of {} in "
+                 "G₂. If none is that near, the nearest. Of forms that are small in error and "
+                 "equal in time, the usual one, or else the nearest. GGX and the split sum are "
+                 "what people ship: no threshold judges them.",
+                 plain(side_by_side), plain(small_masking_error))}},
+            {"Masking",
+             {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
+              "0.05 to 1."}},
+            {"Fresnel",
+             {"Surfaces of roughness 0.1 or more, seen at cosines of 0.1 to 1 under even light of "
+              "D65. A metal's true colour is that of its spectrum. Forms at three wavelengths use "
+              "650, 550 and 450 nm."}},
+            {"Multiple scattering",
+             {"Under Schlick's Fresnel, at cosines of 0.1 or more. For image-based light the "
+              "reference is the transport of light between facets under even light. For single "
+              "lights it is random walks on a ball, lit from 30° and from 120° to the view, and ΔE "
+              "includes the walks' error. Under image-based light only Fdez-Agüera's compensation "
+              "is compared, which was made for the split sum."}},
+            {"Where compensation begins",
+             {fmt::format(
+                 "At the least roughness where one bounce is off by more than ΔE {} and "
+                 "compensation is "
+                 "nearer there and at all greater roughnesses, under the worse of the lights. "
+                 "Under "
+                 "single lights it has to be nearer by more than twice the walks' error. Below "
+                 "that "
+                 "roughness there is one bounce. Compensation is taken only if it lowers the "
+                 "greatest ΔE2000 by {} or more.",
+                 plain(side_by_side), plain(just_seen))}},
+            {"Split sum", {"The exposure gives a white ball half of the display's white."}},
+            {"Diffuse",
+             {fmt::format(
+                 "Colours are those of a ball, where the cosines of light and view are {:g} or "
+                 "more; reflected light is computed from cosine {:g} on. A form that reflects "
+                 "more than {} of the light is left out. If all do, the one that reflects least "
+                 "is taken.",
+                 least_colour_cosine, least_diffuse_cosine, page::percent(no_light_made, 4))}},
+            {"≤",
+             {"The greatest value at the roughnesses, views and points that were computed. "
+              "Between them it may be more, most so under single lights."}},
+            {"Times",
+             {"Medians over several processes. Two forms are timed in the same process, and a cost "
+              "is their difference. It counts if every process found the same sign, and if the "
+              "median is larger than the spread and than 3 % of the time taken. Compensations are "
+              "timed in one process, one light and view at a time, and GTR in a whole "
+              "highlight."}}}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;
   out.setting = fmt::format(

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 
 #include <fmt/format.h>
@@ -86,10 +85,6 @@ std::string words(std::string_view name) {
   std::string out(name);
   std::ranges::replace(out, '_', ' ');
   return out;
-}
-std::string capital(std::string text) {
-  if (!text.empty()) text[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(text[0])));
-  return text;
 }
 std::string degrees_text(double x, int decimals) {
   if (!std::isfinite(x)) return "–";

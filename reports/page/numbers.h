@@ -31,8 +31,6 @@ std::string milliseconds_text(double ms);
 std::string with_error(double, double error);
 /// A name's words: "log rms" of log_rms.
 std::string words(std::string_view name);
-/// With a capital.
-std::string capital(std::string text);
 /// "55.3°"
 std::string degrees_text(double, int decimals = 1);
 

@@ -12,6 +12,7 @@
 #include "base/text.h"
 #include "brdf/model/model.h"
 #include "brdf/model/model_names.h"
+#include "reports/finding/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/pages/drawn_channels.h"

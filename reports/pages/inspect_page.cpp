@@ -9,6 +9,7 @@
 #include "base/json/describe.h"
 #include "base/quantile.h"
 #include "image/display.h"
+#include "reports/finding/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/pages/angle_bins.h"

@@ -8,6 +8,7 @@
 
 #include "brdf/model/model_names.h"
 #include "fitting/choice/document.h"
+#include "reports/finding/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/pages/fields.h"

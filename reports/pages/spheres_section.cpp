@@ -6,6 +6,7 @@
 #include "base/rounded.h"
 #include "base/text.h"
 #include "image/colour_difference.h"
+#include "reports/finding/names.h"
 #include "reports/page/numbers.h"
 #include "reports/page/spheres.h"
 

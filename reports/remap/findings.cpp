@@ -87,8 +87,8 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
                   *overall_rms(r, form_id::direct_k, form_id::smith),
                   *overall_rms(r, form_id::image_k, form_id::smith)),
       fmt::format(
-          "Smith's masking is the same for all light. At {} roughnesses (r+1)²/8 is nearer to it "
-          "than r²/2.",
+          "Smith's masking is the same for all light. (r+1)²/8 is nearer to it than r²/2 at {} "
+          "roughnesses.",
           of_all(d.nearer, d.all)));
   for (const double at : {0.1, 0.3})
     if (const auto* a = row_at(ours, at))
@@ -135,15 +135,14 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
   const auto &half = r.g1[0], &remapped = r.g1[1];
   to.judge("k = α/2 is too bright at grazing angles", "", verdict(half.value > half.smith),
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", half.value, half.smith, half.nov),
-           fmt::format("at NoV {:g} and roughness {:g} it lets through {} than exact Smith.",
-                       half.nov, half.roughness, beside(half.value / half.smith)));
+           fmt::format("at roughness {:g} it lets through {} than exact Smith.", half.roughness,
+                       beside(half.value / half.smith)));
   to.judge("with k = (r+1)²/8 the edge is 72 % darker, like that of a medium roughness", "",
            verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith),
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", remapped.value, remapped.smith,
                        remapped.nov),
-           fmt::format("at NoV {:g} this k darkens the edge by {}. Exact Smith of roughness {:.2g} "
-                       "darkens it by {}.",
-                       remapped.nov, percent(1 - remapped.value, 2), remapped.roughness,
+           fmt::format("this k darkens the edge by {}, exact Smith of roughness {:.2g} by {}.",
+                       percent(1 - remapped.value, 2), remapped.roughness,
                        percent(1 - remapped.smith, 2)));
 }
 
@@ -164,14 +163,10 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
     with_it = std::max(with_it, largest_factor(v, 1));
   }
   if (most == 0) return;
-  to.judge(
-      "F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
-      fmt::format("off by a factor of up to {}; with a ¼ by up to {}", rounded_up(most),
-                  rounded_up(with_it)),
-      fmt::format(
-          "the claim leaves out the ¼ of Unity's form. In the mirror direction of glass it is off "
-          "by a factor of up to {}. With the ¼ it is off by up to {}.",
-          rounded_up(most), rounded_up(with_it)));
+  to.judge("F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
+           fmt::format("off by a factor of up to {}; with a ¼ by up to {}", rounded_up(most),
+                       rounded_up(with_it)),
+           "tested in the mirror direction of glass. Unity's own form has the ¼.");
 }
 
 }  // namespace

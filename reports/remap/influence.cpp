@@ -32,9 +32,9 @@ void judge_influence_of_masking(Findings& to, const RemapRows& r) {
   to.judge(
       "except at grazing angles and high roughness, G matters little", "", verdict_on_small(within),
       fmt::format("up to {} more light without it there", percent_at_most(within)),
-      fmt::format("at cosines from {:g} on and roughness up to {:g}, GGX without masking reflects "
-                  "up to {} more. At cosine {:g} and roughness {:g} it is {}.",
-                  least_mu, most_roughness, percent_at_most(within), mu, roughness,
+      fmt::format("tested with GGX at cosines of {:g} or more and roughness up to {:g}. At cosine "
+                  "{:g} and roughness {:g} it is {}.",
+                  least_mu, most_roughness, mu, roughness,
                   beyond > 10 ? fmt::format("{:.0f} times as much", 1 + beyond)
                               : percent_at_most(beyond) + " more"));
 }

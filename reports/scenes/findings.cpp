@@ -4,6 +4,7 @@
 #include <cmath>
 #include <iterator>
 
+#include "reports/finding/names.h"
 #include "reports/finding/words.h"
 #include "reports/scenes/scenes.h"
 
@@ -16,10 +17,6 @@ namespace {
 constexpr double little = 0.1;
 constexpr std::string_view no_difference = "no visible difference";
 
-std::string capital(std::string text) {
-  if (!text.empty() && text[0] >= 'a' && text[0] <= 'z') text[0] = static_cast<char>(text[0] - 32);
-  return text;
-}
 /// "2.1", "12": two digits.
 std::string times_text(double ratio) {
   return fmt::format("{:.{}f}", ratio, ratio < 9.95 ? 1 : 0);
@@ -93,14 +90,13 @@ void savings(Findings& to, const ScenesRows& r) {
                                 : "set of forms as fast as all effects"));
   }
   to.headline = fmt::format(
-      "Leaving out what nobody sees saves a tenth or more of a shader's time in {} scenes whose "
-      "plans hold, and up to {}.{}",
-      save, up_to,
+      "Leaving out what nobody sees saves up to {} of a shader's time, and a tenth or more in {} "
+      "scenes whose plans hold.{}",
+      up_to, save,
       slower.empty()
           ? ""
-          : fmt::format(" In {} others the plan takes longer, up to {} times as long as all "
-                        "effects in the forms that shaders ship: those forms are not shown to keep "
-                        "the tolerance.",
+          : fmt::format(" In {} others the plan takes up to {} times as long as the usual forms, "
+                        "which are not shown to keep the tolerance.",
                         slower.size(), slowest_of(slower)));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "base/text.h"
+#include "reports/finding/names.h"
 #include "reports/finding/words.h"
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"

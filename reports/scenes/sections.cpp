@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "base/text.h"
+#include "reports/finding/names.h"
 #include "reports/finding/words.h"
 #include "reports/page/numbers.h"
 #include "reports/page/section.h"

@@ -47,30 +47,23 @@ double shown_by_schlick(const SchlickRows& r, const std::string& material) {
 
 void smaller_than_others(Findings& to, const SchlickRows& r) {
   std::array<std::size_t, 2> smaller{}, all{};
-  const MaskingColour *glass = nullptr, *worst = nullptr;
+  const MaskingColour* glass = nullptr;
   for (const auto& m : r.masked) {
     const bool of_metal = m.kind == "metal";
     smaller[of_metal] += 2 * shown_by_schlick(r, m.material) < m.delta_e;
     ++all[of_metal];
     if (m.material == "IOR 1.5") glass = &m;
-    if (of_metal &&
-        (!worst || shown_by_schlick(r, m.material) > shown_by_schlick(r, worst->material)))
-      worst = &m;
   }
-  if (!glass || !worst) return;
+  if (!glass) return;
   to.judge("Schlick's error is significantly less than that of other factors",
            "Burley 2012, Physically-Based Shading at Disney",
            verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
            fmt::format("glass ΔE2000 {} against {} of masking",
                        rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
            fmt::format(
-               "Tested: is its error less than half of that of Unreal's joint form? It is for {} "
-               "dielectrics. "
-               "It is for {} metals. For {} Schlick shows up "
-               "to ΔE2000 {}, "
-               "that form up to {}.",
-               of_all(smaller[0], all[0]), of_all(smaller[1], all[1]), worst->material,
-               rounded_up(shown_by_schlick(r, worst->material)), rounded_up(worst->delta_e)));
+               "The other factor is Unreal's joint masking. Schlick's error is less than half of "
+               "that for {} dielectrics. The same holds for {} metals.",
+               of_all(smaller[0], all[0]), of_all(smaller[1], all[1])));
 }
 
 void means_metal(Findings& to) {
@@ -83,21 +76,17 @@ void means_metal(Findings& to) {
     if (const double f0 = f0_of_index(m.at(550)); f0 > 0.04) above.push_back({m.name, f0});
   if (above.empty()) return;
   const auto most = std::ranges::max_element(above, {}, &Value::f0);
-  to.judge(
-      "F0 above 0.04 means metal", "", verdict(false),
-      fmt::format("{} has F0 {:.2f}", most->name, most->f0),
-      fmt::format("{} dielectrics that were measured have more. For {} it is {:.2f}, at 550 nm.",
-                  of_all(above.size(), dielectrics().size()), most->name, most->f0));
+  to.judge("F0 above 0.04 means metal", "", verdict(false),
+           fmt::format("{} has F0 {:.2f}", most->name, most->f0),
+           fmt::format("{} measured dielectrics have more, at 550 nm.",
+                       of_all(above.size(), dielectrics().size())));
 }
 
 void colour_beside_f(Findings& to) {
   const double glass = dielectric(1.5, "glass").f0(0), twice = glass * glass;
-  to.judge(
-      "f = D F G/(4 NoL NoV) · NoL · SpecularColor", "", verdict(false),
-      fmt::format("glass reflects {} in place of {}", percent(twice, 2), percent(glass, 2)),
-      fmt::format("F holds the specular colour already. Seen head on, glass then reflects {} of "
-                  "light in place of {}.",
-                  percent(twice, 2), percent(glass, 2)));
+  to.judge("f = D F G/(4 NoL NoV) · NoL · SpecularColor", "", verdict(false),
+           fmt::format("glass reflects {} in place of {}", percent(twice, 2), percent(glass, 2)),
+           "F holds the specular colour already. Glass is seen head on.");
 }
 
 }  // namespace

@@ -45,9 +45,9 @@ void judge_f_and_g_in_half(Findings& to, const StabilityRows& r) {
       "F and G can be computed in half", "",
       verdict(keeps(*f) && keeps(*g), keeps(*f) || keeps(*g)),
       fmt::format("Schlick's F {}", lost(*f)),
-      fmt::format("Schlick's F in half {}{} (all halves tried). Unreal's clamped joint masking {} "
-                  "by rounding (search; there may be worse).{}",
-                  lost(*f), keeps(*f) ? "" : " for some inputs", lost(*g), by_clamp(r)));
+      fmt::format("all halves were tried. Unreal's clamped joint masking {} by rounding, as far as "
+                  "a search found.{}",
+                  lost(*g), by_clamp(r)));
 }
 
 }  // namespace gonio::stabilities

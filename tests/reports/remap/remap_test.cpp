@@ -211,9 +211,7 @@ TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
   EXPECT_TRUE(said("“k = α/2 is too bright at grazing angles” does not hold"));
   EXPECT_EQ(all.claims[1].figure, "G1 0.471, exact 0.543 at NoV 0.1");
   EXPECT_EQ(all.claims[2].figure, "G1 0.283, exact 0.543 at NoV 0.1");
-  EXPECT_TRUE(
-      said("“F V ≈ 1/(LoH²(r+0.5))” does not hold: the claim leaves out the "
-           "¼ of Unity's form"));
+  EXPECT_TRUE(said("“F V ≈ 1/(LoH²(r+0.5))” does not hold. Off by a factor of up to "));
   for (auto& row : r.rows)  // were it the other way round
     if (row.form == direct) row.rms = 0;
   EXPECT_EQ(findings(r).claims[0].judged, Claim::Judged::holds);

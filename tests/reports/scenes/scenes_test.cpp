@@ -292,9 +292,7 @@ TEST(ScenesFindings, CountWhereATenthOrMoreIsSaved) {
   const auto counted = [&](double saved, const char* scenes) {
     r.rows[1].ns_float = 10 * (1 - saved);
     const auto headline = findings(r).headline;
-    EXPECT_TRUE(headline.starts_with(std::string("Leaving out what nobody sees saves a tenth or "
-                                                 "more of a shader's time in ") +
-                                     scenes))
+    EXPECT_NE(headline.find(std::string("and a tenth or more in ") + scenes), headline.npos)
         << headline;
   };
   counted(0.11, "2 of 3 scenes");

@@ -36,7 +36,7 @@ TEST(FresnelClaims, OtherFactorsAreWorseOnlyWhereSchlickShowsLessThanHalfOfThem)
   EXPECT_EQ(about(judged(shown(1, 4, 1, 9)), "other factors").judged, holds);
   EXPECT_EQ(about(judged(shown(3, 4, 5, 9)), "other factors").judged, fails);
   const auto c = about(judged(shown(3, 4, 1, 9)), "other factors");
-  EXPECT_NE(c.verdict.find("It is for none of 1 dielectrics. It is for 1 of 1 metals."),
+  EXPECT_NE(c.verdict.find("that for none of 1 dielectrics. The same holds for 1 of 1 metals."),
             c.verdict.npos)
       << c.verdict;
 }
