@@ -143,13 +143,12 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
        fmt::format(
-           "GGX is off from published fits of measured materials by {} (the median; {} of these "
-           "fits determine GTR's gamma, and {} of them have a longer tail than GGX)",
-           factor(t.ggx_log_rms), t.determined, t.longer),
+           "typically {} off published fits of measured materials (median; {} of the {} fits that "
+           "determine GTR's gamma have a longer tail than GGX)",
+           factor(t.ggx_log_rms), t.longer, t.determined),
        std::string(no_more),
-       fmt::format("you fit gamma, too (median {:.2g} where the fit determines it): then GTR with "
-                   "its own Smith, "
-                   "typically {}, {}",
+       fmt::format("you fit gamma, too (median {:.2g}): then GTR with its own Smith, typically {}, "
+                   "{}",
                    t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
 }
 
@@ -452,7 +451,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
                    : fmt::format(" (Lambert: {})", delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("up to {} of the light may be reflected: then “{}”, {}",
+    d.unless = fmt::format("you accept that up to {} of the light is reflected: then “{}”, {}",
                            made(*form_of(nearer->form)), in_text(nearer->form),
                            delta_at_most(nearer->error));
   to.push_back(std::move(d));
@@ -482,13 +481,12 @@ void precision(std::vector<Decision>& to, const Facts& f) {
     return;
   }
   to.push_back(
-      {"Precision: D V F NoL of GGX in half",
+      {fmt::format("Precision: D V F NoL of GGX in half (F0 of {:g} or more)", half->least_f0),
        fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
        "ndf.ggx",
        fmt::format(
-           "≤ {0} as far as a search found (F0 of {2:g} or more, angles up to {1:.0f}°, cosines in "
-           "half, too)",
-           percent(half->tolerance, 2), half->zenith_deg, half->least_f0),
+           "≤ {} as far as a search found (with the cosines in half, too, at angles up to {:.0f}°)",
+           percent(half->tolerance, 2), half->zenith_deg),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
        fmt::format("only D is in half: then α at least {}{}", rounded_up(*own->safe_from),

@@ -276,7 +276,8 @@ Section fresnel(const ReportIndex& i) {
   }
   return {
       fresnel_title,
-      "The greatest ΔE2000 of a rough surface under even light, over roughness and view.",
+      "The greatest ΔE2000 of a rough surface under even light, over roughness and view, rounded "
+      "up.",
       {t,
        Markup{fmt::format(
            R"(<p class="small key-of"><span class="unseen">unseen, to {0}</span><span class="beside">side by side, to {1}</span><span class="shows">seen</span><span class="unknown">– not computed</span></p>)",
@@ -345,7 +346,7 @@ std::string index_page_html(const ReportIndex& i) {
          "forms, the faster is on it. Bars are the spread between processes. Hammon's way to write "
          "Unreal's joint form is a point of its own. The RMS error is over other directions than "
          "that of the masking row.",
-         {page::Shown{i.front.figures[0].family, {}, 440}},
+         {page::Shown{i.front.figures[0].family, {}, 560}},
          "time"});
   out.sections.push_back(cards(i));
   out.sections.push_back(claims(i));

@@ -203,10 +203,10 @@ page::Section spheres_section(const Spheres& s, std::string_view name, std::size
     most = std::max(most, l.covered);
   }
   if (shown.empty()) {
-    out.text = fmt::format(
-        "No sphere is shown: the table has samples for {} of a sphere's lit pixels, and a third is "
-        "needed.",
-        most > 0 ? "at most " + rounded_up(100 * most) + "\u202f%" : "none");
+    out.title = "No sphere to show";
+    out.text =
+        fmt::format("The table has samples for {} of a sphere's lit pixels, and a third is needed.",
+                    most > 0 ? "at most " + rounded_up(100 * most) + "\u202f%" : "none");
     return out;
   }
   out.text = answer(shown, s, name);

@@ -31,10 +31,11 @@ void judge_influence_of_masking(Findings& to, const RemapRows& r) {
     }
   to.judge(
       "except at grazing angles and high roughness, G matters little", "", verdict_on_small(within),
-      fmt::format("up to {} more light without it there", percent_at_most(within)),
-      fmt::format("tested with GGX at cosines of {:g} or more and roughness up to {:g}. At cosine "
-                  "{:g} and roughness {:g} it is {}.",
-                  least_mu, most_roughness, mu, roughness,
+      fmt::format("up to {} more light without it, at cosines of {:g} or more and roughness up to "
+                  "{:g}",
+                  percent_at_most(within), least_mu, most_roughness),
+      fmt::format("the distribution is GGX. At cosine {:g} and roughness {:g} it is {}.", mu,
+                  roughness,
                   beyond > 10 ? fmt::format("{:.0f} times as much", 1 + beyond)
                               : percent_at_most(beyond) + " more"));
 }

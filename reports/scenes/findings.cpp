@@ -74,7 +74,7 @@ void savings(Findings& to, const ScenesRows& r) {
                    : fmt::format("Less than a tenth is saved for {}", scenes_text(none))));
   const auto slowest_of = [](const std::vector<const SceneRow*>& rows) {
     const auto* const row = *std::ranges::min_element(rows, {}, &SceneRow::speedup_float);
-    return rounded_up(1 / row->speedup_float);
+    return rounded_up(1 / row->speedup_float, 3);
   };
   for (const bool by_table : {true, false}) {
     std::vector<const SceneRow*> these;
@@ -95,9 +95,10 @@ void savings(Findings& to, const ScenesRows& r) {
       up_to, save,
       slower.empty()
           ? ""
-          : fmt::format(" In {} others the plan takes up to {} times as long as the usual forms, "
-                        "which are not shown to keep the tolerance.",
-                        slower.size(), slowest_of(slower)));
+          : fmt::format(
+                " In {} others the plan takes up to {} times as long as all effects with Kulla "
+                "and Conty's compensation, which is not shown to keep the tolerance.",
+                slower.size(), slowest_of(slower)));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

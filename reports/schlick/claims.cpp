@@ -62,7 +62,7 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
                        rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
            fmt::format(
                "The other factor is Unreal's joint masking. Schlick's error is less than half of "
-               "that for {} dielectrics. The same holds for {} metals.",
+               "that for {} dielectrics. It is less than half for {} metals.",
                of_all(smaller[0], all[0]), of_all(smaller[1], all[1])));
 }
 

@@ -37,17 +37,21 @@ void judge_f_and_g_in_half(Findings& to, const StabilityRows& r) {
   };
   const auto lost = [](const StabilityRow& x) {
     if (x.is_absolute && x.nonfinite + x.overflow == 0)
-      return fmt::format("is off by {} {:g}", x.lost == 0 ? "at most" : "more than", x.tolerance);
+      return x.lost == 0 ? fmt::format("is off by at most {:g} of full light", x.tolerance)
+                         : fmt::format("is off by more than {:g} of full light at {} of the inputs",
+                                       x.tolerance,
+                                       percent_at_most(static_cast<double>(x.lost) /
+                                                       static_cast<double>(x.evaluations)));
     return x.nonfinite + x.overflow > 0 ? std::string("has inputs without a value")
                                         : "is off by up to " + percent_at_most(x.worst_rel);
   };
-  to.judge(
-      "F and G can be computed in half", "",
-      verdict(keeps(*f) && keeps(*g), keeps(*f) || keeps(*g)),
-      fmt::format("Schlick's F {}", lost(*f)),
-      fmt::format("all halves were tried. Unreal's clamped joint masking {} by rounding, as far as "
-                  "a search found.{}",
-                  lost(*g), by_clamp(r)));
+  to.judge("F and G can be computed in half", "",
+           verdict(keeps(*f) && keeps(*g), keeps(*f) || keeps(*g)),
+           fmt::format("Schlick's F {}", lost(*f)),
+           fmt::format("for Schlick's F all halves were tried. Unreal's clamped joint masking {} "
+                       "by rounding, as far as "
+                       "a search found.{}",
+                       lost(*g), by_clamp(r)));
 }
 
 }  // namespace gonio::stabilities

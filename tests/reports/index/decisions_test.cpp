@@ -174,14 +174,12 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   const auto& tails = about(all, "Distribution");
   EXPECT_EQ(tails.take_id, "ndf.ggx");
   EXPECT_EQ(tails.error,
-            "GGX is off from published fits of measured materials by ×/÷ 1.5 (the median; 14 of "
-            "these fits determine GTR's gamma, and 9 of them have a longer tail than GGX)");
+            "typically ×/÷ 1.5 off published fits of measured materials (median; 9 of the 14 fits "
+            "that determine GTR's gamma have a longer tail than GGX)");
   EXPECT_EQ(without_aside(tails.error),
-            "GGX is off from published fits of measured materials by ×/÷ 1.5");
+            "typically ×/÷ 1.5 off published fits of measured materials");
   EXPECT_EQ(tails.unless,
-            "you fit gamma, too (median 1.4 where the fit determines it): then GTR with its own "
-            "Smith, typically "
-            "×/÷ 1.2, "
+            "you fit gamma, too (median 1.4): then GTR with its own Smith, typically ×/÷ 1.2, "
             "+0.80 ns");
   const auto& matte = about(all, "Diffuse of matte surfaces");
   EXPECT_EQ(matte.take_id, "diffuse.eon");
@@ -216,7 +214,8 @@ TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "where all make light, that which makes least";
   EXPECT_EQ(below.unless,
-            "up to 160\u00a0% of the light may be reflected: then “Hammon's diffuse for GGX and "
+            "you accept that up to 160\u00a0% of the light is reflected: then “Hammon's diffuse "
+            "for GGX and "
             "Smith”, ΔE ≤ 3.5");
 }
 

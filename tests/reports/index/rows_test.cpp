@@ -239,8 +239,9 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   EXPECT_EQ(below.error, up_to(5.2) +
                              "; with the lobe it reflects up to 140\u00a0% of the light (Lambert: "
                              "191\u00a0%)");
-  EXPECT_EQ(below.unless,
-            "up to 220\u00a0% of the light may be reflected: then “Disney's diffuse”, ΔE ≤ 1")
+  EXPECT_EQ(
+      below.unless,
+      "you accept that up to 220\u00a0% of the light is reflected: then “Disney's diffuse”, ΔE ≤ 1")
       << "the nearest of them, and what it gains";
 }
 
@@ -258,13 +259,12 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   auto all = facts(r);
   join(all, facts(timed({"ggx/smith_ggx.correlated/schlick", "gtr/smith_gtr.correlated/schlick"})));
   const auto row = of(decisions(all), "Distribution");
-  EXPECT_EQ(row.error, fmt::format("GGX is off from published fits of measured materials by ×/÷ "
-                                   "{:.3g} (the median; 10 of these fits determine GTR's gamma, "
-                                   "and 10 of them have a longer tail than GGX)",
+  EXPECT_EQ(row.error, fmt::format("typically ×/÷ {:.3g} off published fits of measured materials "
+                                   "(median; 10 of the 10 fits that determine GTR's gamma have a "
+                                   "longer tail than GGX)",
                                    std::exp(0.395)));  // between the tenth and the eleventh
   EXPECT_EQ(row.unless,
-            fmt::format("you fit gamma, too (median 1.5 where the fit determines it): then GTR "
-                        "with its own Smith, typically "
+            fmt::format("you fit gamma, too (median 1.5): then GTR with its own Smith, typically "
                         "×/÷ {:.3g}, +0.10 ns",
                         std::exp(0.1475)))
       << "the error and the time of one model";
@@ -281,10 +281,9 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   r.highlights = {{"ggx/smith_ggx.correlated/schlick", "half", 88, 0.5, 0.022, 0.0371, 0.0315}};
   const auto row = of(decisions(facts(r)), "Precision");
   EXPECT_EQ(row.take, "sin² θ_h from |n × h|², α at least 0.038") << "at 0.037 it is not kept";
-  EXPECT_EQ(
-      row.error,
-      "≤ 2.2\u00a0% as far as a search found (F0 of 0.5 or more, angles up to 88°, cosines in "
-      "half, too)");
+  EXPECT_EQ(row.error,
+            "≤ 2.2\u00a0% as far as a search found (with the cosines in half, too, at angles up to "
+            "88°)");
   EXPECT_EQ(row.cost, "surfaces below roughness 0.2 look like 0.2");
   r.highlights[0].safe_from.reset();
   EXPECT_EQ(of(decisions(facts(r)), "Precision").take, "float instead");
