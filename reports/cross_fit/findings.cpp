@@ -158,7 +158,7 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
     if (whole)
       to.say(fmt::format(
           "On a slice down to the horizon, where no instrument is trusted, it is off {}.",
-          span(whole->first, whole->second, signed_percent)));
+          span(whole->first, whole->second, outward)));
   }
 }
 

@@ -7,14 +7,13 @@
 #include "reports/finding/names.h"
 #include "reports/finding/words.h"
 #include "reports/scenes/scenes.h"
+#include "scene/plan/cost.h"
 
 #include <fmt/format.h>
 
 namespace gonio {
 namespace {
 
-/// Share of the time below which as good as nothing is saved.
-constexpr double little = 0.1;
 constexpr std::string_view no_difference = "no visible difference";
 
 /// "2.1", "12": two digits.
@@ -56,22 +55,20 @@ void savings(Findings& to, const ScenesRows& r) {
   std::ranges::copy_if(r.rows, std::back_inserter(held), &SceneRow::holds);
   if (held.empty()) return;
   for (const auto& row : held) {
-    if (saved(row) < -little)
-      slower.push_back(&row);
-    else if (saved(row) < little)
+    if (scene::is_as_fast(row.speedup_float))
       none.push_back(&row);
+    else if (row.speedup_float < 1)
+      slower.push_back(&row);
   }
-  const auto& least = *std::ranges::min_element(
-      held, {}, [](const SceneRow& row) { return saved(row) < -little ? 1 : saved(row); });
   const auto& most = *std::ranges::max_element(held, {}, saved);
   const auto up_to = percent(saved(most), 2);
   const auto save = of_all(held.size() - none.size() - slower.size(), held.size());
   to.say(fmt::format(
-      "At {}, plans save a tenth or more of a float shader's time in {} scenes whose plans hold, "
-      "and {} for {}. {}.",
-      no_difference, save, up_to, scene_text(most),
-      none.empty() ? fmt::format("The least is saved for {}", scene_text(least))
-                   : fmt::format("Less than a tenth is saved for {}", scenes_text(none))));
+      "At {}, plans are faster than all effects of the material in {} scenes whose plans hold. The "
+      "most is saved for {}: {} of a float shader's time.",
+      no_difference, save, scene_text(most), up_to));
+  if (!none.empty())
+    to.say(fmt::format("The plan is about as fast as all effects for {}.", scenes_text(none)));
   const auto slowest_of = [](const std::vector<const SceneRow*>& rows) {
     const auto* const row = *std::ranges::min_element(rows, {}, &SceneRow::speedup_float);
     return rounded_up(1 / row->speedup_float, 3);
@@ -90,9 +87,9 @@ void savings(Findings& to, const ScenesRows& r) {
                                 : "set of forms as fast as all effects"));
   }
   to.headline = fmt::format(
-      "Leaving out what nobody sees saves up to {} of a shader's time, and a tenth or more in {} "
-      "scenes whose plans hold.{}",
-      up_to, save,
+      "Leaving out what nobody sees makes a shader faster in {} scenes whose plans hold, and saves "
+      "up to {} of its time.{}",
+      save, up_to,
       slower.empty()
           ? ""
           : fmt::format(

@@ -61,9 +61,9 @@ std::string kept_words(const scene::Forms& forms) {
   return out.empty() ? "nothing" : fmt::format("{}", fmt::join(out, ", "));
 }
 
-/// A bound as it stands in a sentence, without its sign.
+/// A bound as it stands in a sentence, without its sign: never below the number.
 std::string bound_text(double x, int digits = 2) {
-  return at_most(x, digits).substr(std::string_view("≤ ").size());
+  return significant(std::stod(rounded_up(x, digits)), digits);
 }
 double error_of(const scene::MaterialPlan& m) {
   return m.bounded ? m.checked.upper : m.checked.quantile;
@@ -134,8 +134,8 @@ void say_speeds(std::vector<std::string>& out, const scene::Plan& p) {
                           most)
         : faster.size() == 2
             ? fmt::format("{} {} {}, and {} {}.", does, first.name, most, last.name, least)
-            : fmt::format("{} {}, which gains most, {}, and {}, which gains least, {}.", does,
-                          first.name, most, last.name, least));
+            : fmt::format("{} {} materials between {} ({}) and {} ({}).", does,
+                          count_text(faster.size()), least, last.name, most, first.name));
   }
   if (!as_fast.empty())
     out.push_back(fmt::format("{} {} as long as with all effects.", list_text(as_fast),
@@ -381,13 +381,11 @@ std::string why_passed_over(const scene::MaterialPlan& m, scene::Cost cost) {
   const bool by_time = cost == scene::Cost::time && m.passed_over > 0 && f.ns < m.ns;
   const auto at = by_time ? fmt::format("{:.3g} ns", f.ns)
                           : counted(static_cast<std::size_t>(std::round(f.ops)), "operation");
-  const auto which = fmt::format(
-      "the {} ({})",
-      m.passed_over > 1    ? "cheapest of them"
-      : m.passed_over == 1 ? "cheapest"
-                           : "nearest set with one form cheaper and fewer operations, by the "
-                             "points that sets are compared on",
-      at);
+  const auto which =
+      m.passed_over > 0
+          ? fmt::format("the cheapest{} ({})", m.passed_over > 1 ? " of them" : "", at)
+          : fmt::format("the nearest set with one form cheaper ({}; judged on {} points)", at,
+                        page::count_text(f.error.samples));
   return which + " " + exceeded(f.error, f.margin, m.bounded);
 }
 

@@ -124,7 +124,9 @@ void metal_forms(Findings& to, const SchlickRows& r) {
       in_text(best->form), best->median, plain->median));
   if (!same.empty())
     to.say(
-        fmt::format("The exact equation in other parameters has no error: {}.", list_text(same)));
+        fmt::format("The exact equation in other parameters has no error where a channel has one n "
+                    "and one k: {}.",
+                    list_text(same)));
 }
 
 void variants(Findings& to, const SchlickRows& r) {

@@ -175,6 +175,25 @@ TEST(PlanPage, CallsTimesThatAClockCannotTellApartTheSame) {
   EXPECT_EQ(scenes::speed(1 / 6.3), "6.3\u202f× as slow");
 }
 
+TEST(PlanPage, WritesADifferenceThatIsTinyAsItIs) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  p.materials.at(0).checked.worst = 7.91e-7;
+  const auto page = plan_page_html(plastic_scene(), p);
+  place_of(page, "the worst point differs by 8.0·10⁻⁷.");
+}
+
+TEST(PlanPage, NamesTheEndsOfTheSpeedsOfManyMaterials) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  p.materials.resize(3, p.materials.at(0));
+  p.materials[0].name = "a", p.materials[0].speedup = 2;
+  p.materials[1].name = "b", p.materials[1].speedup = 4;
+  p.materials[2].name = "c", p.materials[2].speedup = 2;
+  place_of(plan_page_html(plastic_scene(), p),
+           "makes 3 materials between 2.0\u202f× as fast (c) and 4.0\u202f× as fast (b).");
+}
+
 TEST(PlanPage, SaysWhichMarginAPlanKeeps) {
   GONIO_MANY_FITS();
   place_of(plan_page_html(plastic_scene(), plan()),
