@@ -152,9 +152,9 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
                     whole ? " except one, a slice down to the horizon" : ""));
     if (to.headline.empty())
       to.headline = fmt::format(
-          "F0 of glass comes out off {} when fitted with {} to slices of "
-          "exact single scattering.",
-          span(f0->first, f0->second, outward), with(form));
+          "F0 of glass comes out off {} when fitted with {} to exact single scattering{}.",
+          span(f0->first, f0->second, outward), with(form),
+          whole ? ", slices down to the horizon left out" : "");
     if (whole)
       to.say(fmt::format(
           "On a slice down to the horizon, where no instrument is trusted, it is off {}.",

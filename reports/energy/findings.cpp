@@ -290,7 +290,7 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
            fmt::format("it reflects {} in place of {}", percent(row.albedo),
                        percent(smith->rows[at].albedo)),
            fmt::format("this is the largest error, at {}, before Fresnel. It is compared with the "
-                       "Smith masking of the coat's own distribution.",
+                       "height-correlated Smith masking of the coat's own distribution.",
                        place(row.roughness, row.mu)));
 }
 

@@ -344,8 +344,8 @@ std::string nearer_below(const Facts& f, double f0, bool of_image_light, const C
     if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
         way && c.of_image_light == of_image_light && most_below(*way, pays.from) < least)
       best = &c, least = most_below(*way, pays.from);
-  return best ? fmt::format("roughness below {:g} matters: then {} there, {}, {}", pays.from,
-                            name_of_form(best->id), delta_at_most(least),
+  return best ? fmt::format("roughness below {:g} matters: then {} for those, with {} there, in {}",
+                            pays.from, name_of_form(best->id), delta_at_most(least),
                             ns_text(best->without_ns + best->ns))
               : "";
 }
@@ -364,8 +364,10 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
   const auto* other = nearest_cheaper(all, *taken);
   std::vector<std::string> unless;
   if (other && other->form != single)
-    unless.push_back(fmt::format("time is short: then {}, {}", name_of_form(other->form),
-                                 delta_at_most(other->error)));
+    unless.push_back(fmt::format(
+        "time is short: then {} from roughness {:g} on, {} in all", name_of_form(other->form),
+        compensated(*scattering_of(f, other->form, f0, of_image_light), *nothing)->from,
+        delta_at_most(other->error)));
   Decision d{fmt::format("Multiple scattering under {}, F0 {:g} ({})",
                          of_image_light ? "image-based light" : "single lights", f0,
                          f0 == bright ? "bright metal"
@@ -379,8 +381,9 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     const auto pays = *compensated(*scattering_of(f, taken->form, f0, of_image_light), *nothing);
-    d.take = fmt::format("{}, from roughness {:g} on", name_of_form(taken->form), pays.from);
-    d.error += fmt::format(" (one bounce: {})", at_most(without));
+    d.take = fmt::format("{} from roughness {:g} on, one bounce below", name_of_form(taken->form),
+                         pays.from);
+    d.error += fmt::format(" in all (one bounce: {})", at_most(without));
     if (auto below = nearer_below(f, f0, of_image_light, pays); !below.empty())
       unless.push_back(std::move(below));
     d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",

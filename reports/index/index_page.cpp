@@ -163,7 +163,8 @@ void add_report(
   if (front.curves.size() == 2 && !front.curves[1].dashed) front.curves.pop_back();
   front.note.clear();
   front.y.label = "RMS error of G₂";
-  front.y.log = false;  // the exact form is off by rounding only: decades below the others
+  front.y.log = false;
+  front.y.from = -0.02;  // the exact form is off by rounding only: decades below the others
   front.curves[0].name = "masking forms for GGX";
   if (front.curves.size() == 2) front.curves[1].name = "best trade-offs";
   to.front.figures = {std::move(front)};
@@ -283,8 +284,9 @@ Section fresnel(const ReportIndex& i) {
        Markup{fmt::format(
            R"(<p class="small key-of"><span class="unseen">unseen, to {0}</span><span class="beside">side by side, to {1}</span><span class="shows">seen</span><span class="unknown">– not computed</span></p>)",
            plain(just_seen), plain(side_by_side))},
-       Prose{fmt::format("The thresholds: {0} is from CIE 142-2001. {1} is the least difference "
-                         "that observers saw in CIELAB (Mahy, Van Eycken and Oosterlinck 1994).",
+       Prose{fmt::format("The thresholds: {0} is from CIE 142-2001. {1} is the just noticeable "
+                         "difference that observers had in CIELAB (Mahy, Van Eycken and "
+                         "Oosterlinck 1994), taken for CIEDE2000 here.",
                          plain(just_seen), plain(side_by_side)),
              "small muted"}},
       "fresnel"};
@@ -342,11 +344,12 @@ std::string index_page_html(const ReportIndex& i) {
   if (!i.front.figures.empty())
     out.sections.push_back(
         {"What masking's accuracy costs",
-         "The error of G₂ against height-correlated Smith, over the time of one sample. A form is "
-         "on the dashed line if every process found each more exact form slower. Of equally exact "
-         "forms, the faster is on it. Bars are the spread between processes. Hammon's way to write "
-         "Unreal's joint form is a point of its own. The RMS error is over other directions than "
-         "that of the masking row.",
+         "The error of G₂ against height-correlated Smith, over the time of one sample. Forms are "
+         "timed in several processes. The dashed line joins the best trade-offs: every more exact "
+         "form took longer in each process. If two forms are equally exact, the faster is on it. "
+         "Bars hold the middle half of the processes. Hammon's way to write Unreal's joint form "
+         "is a point of its own. The RMS error is over other directions than that of the masking "
+         "row.",
          {page::Shown{i.front.figures[0].family, {}, 480}},
          "time"});
   out.sections.push_back(cards(i));
@@ -358,9 +361,9 @@ std::string index_page_html(const ReportIndex& i) {
            {{"Choice",
              {fmt::format(
                  "The cheapest form with a small error: up to ΔE2000 {}, or an RMS error of {} in "
-                 "G₂. If none is that near, the nearest. Of forms that are small in error and "
-                 "equal in time, the usual one, or else the nearest. GGX and the split sum are "
-                 "what people ship: no threshold judges them.",
+                 "G₂. If none is that near, the nearest. If several with a small error take the "
+                 "same time, the usual one, or else the nearest. GGX and the split sum are what "
+                 "people ship: no threshold judges them.",
                  plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
@@ -398,9 +401,10 @@ std::string index_page_html(const ReportIndex& i) {
              {"The greatest value at the roughnesses, views and points that were computed. "
               "Between them it may be more, most so under single lights."}},
             {"Times",
-             {"Medians over several processes. Two forms are timed in the same process, and a cost "
-              "is their difference. It counts if every process found the same sign, and if the "
-              "median is larger than the spread and than 3 % of the time taken. Compensations are "
+             {"Medians over several processes. Both forms of a cost are timed in each process, and "
+              "the cost is the median of their differences. It counts if every process found the "
+              "same sign, and if it is larger than the spread and than 3 % of the time taken. "
+              "Compensations are "
               "timed in one process, one light and view at a time, and GTR in a whole "
               "highlight."}}}}},
        "about"});

@@ -68,6 +68,16 @@ Figure cut_figure(const std::vector<std::string>& channels, const Cut& cut, bool
         least = std::min(least, data[i]);
         most = std::max(most, data[i]);
       }
+  // A model may rise above its table: to be seen, but not to flatten the table.
+  constexpr double most_above = 3;
+  double model_most = 0;
+  for (const auto& model : cut.model)
+    for (std::size_t i = 0; i < model.size(); ++i)
+      if (std::abs(cut.deg[i]) <= scale_to_deg && std::isfinite(model[i]))
+        model_most = std::max(model_most, model[i]);
+  if (model_most > most_above * most && most > 0)
+    f.note += (f.note.empty() ? "" : "; ") + std::string("the model rises above the picture");
+  most = std::max(most, std::min(model_most, most_above * most));
   if (most > 0) {
     const double room = 1.6 * std::pow(most / std::max(least, 1e-12 * most), 0.05);
     f.y.from = log ? least / room : std::min(0.0, 1.06 * least);
@@ -303,9 +313,10 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
     fact("reciprocity",
          h.reciprocity_note.empty() ? "cannot be checked in this layout" : h.reciprocity_note);
   fact("noise", noise_words(h.noise));
-  fact("peak", h.peak ? fmt::format("{}; height typically {} 1/sr over a base of {}",
-                                    peak_in_words(*h.peak), significant(h.peak->height),
-                                    significant(h.peak->base))
+  fact("peak", h.peak
+                   ? fmt::format("{}; height {}{} 1/sr over a base of {}", peak_in_words(*h.peak),
+                                 h.peak_profiles == 1 ? "in the one profile there " : "typically ",
+                                 significant(h.peak->height), significant(h.peak->base))
                : h.peak_profiles == 0
                    ? "none found: too few samples near the half vector"
                    : fmt::format("none found: near the half vector values are {} times the base",

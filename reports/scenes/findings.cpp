@@ -93,8 +93,9 @@ void savings(Findings& to, const ScenesRows& r) {
       slower.empty()
           ? ""
           : fmt::format(
-                " In {} others the plan takes up to {} times as long as all effects with Kulla "
-                "and Conty's compensation, which is not shown to keep the tolerance.",
+                " In {} others the usual shader (all effects, with Kulla and Conty's "
+                "compensation) is not shown to keep the tolerance. The plan keeps it and takes up "
+                "to {} times as long.",
                 slower.size(), slowest_of(slower)));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "

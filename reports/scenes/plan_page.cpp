@@ -108,7 +108,7 @@ bool needs_all(const scene::MaterialPlan& m) {
 
 /// How much faster or slower the plan makes the materials that shaders can run as planned.
 void say_speeds(std::vector<std::string>& out, const scene::Plan& p) {
-  std::vector<const scene::MaterialPlan*> faster;
+  std::vector<const scene::MaterialPlan*> faster, slower;
   std::vector<std::string> whole, as_fast;
   for (const auto& m : p.materials) {
     if (m.needs_table()) continue;
@@ -116,6 +116,8 @@ void say_speeds(std::vector<std::string>& out, const scene::Plan& p) {
       whole.push_back(m.name);
     else if (scene::is_as_fast(m.speedup))
       as_fast.push_back(m.name);
+    else if (m.speedup < 1)
+      slower.push_back(&m);
     else
       faster.push_back(&m);
   }
@@ -137,6 +139,12 @@ void say_speeds(std::vector<std::string>& out, const scene::Plan& p) {
             : fmt::format("{} {} materials between {} ({}) and {} ({}).", does,
                           count_text(faster.size()), least, last.name, most, first.name));
   }
+  for (const auto* m : slower)
+    out.push_back(fmt::format("The plan makes {} {}{}.", m->name, scenes::speed(m->speedup),
+                              m->holds && !p.budget && p.cost == scene::Cost::time
+                                  ? ": no set of forms as fast as all effects keeps the tolerance "
+                                    "with a plan's margin"
+                                  : ""));
   if (!as_fast.empty())
     out.push_back(fmt::format("{} {} as long as with all effects.", list_text(as_fast),
                               as_fast.size() == 1 ? "takes" : "take"));

@@ -254,7 +254,7 @@ void ranges_of_f0(Findings& to, const SchlickRows& r) {
     const auto [least, most] = std::ranges::minmax_element(all);
     to.judge(
         claim, "", verdict(2 * within > all.size()),
-        fmt::format("{} {}", of_all(within, all.size()), what),
+        fmt::format("{} {} lie there", of_all(within, all.size()), what),
         fmt::format("the {} measured here have F0 from {:.2g} to {:.3g}.", what, *least, *most));
   };
   judge("most non-metals have F0 0.02 to 0.04", "dielectric", "dielectrics", 0.02, 0.04);

@@ -73,7 +73,7 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   EXPECT_EQ(misfit_in_words(m, true),
             (std::vector<std::string>{"beyond noise the model is off by a factor of 1.088, "
                                       "varying with every angle; intervals are widened",
-                                      "the model is most clearly off around theta_h 16°, "
+                                      "the misfit is most certain around theta_h 16°, "
                                       "theta_d 68°: on average too dark by a factor of 1.43"}));
   m.follows = {"theta_h", "grazing angles"};
   EXPECT_NE(misfit_in_words(m, true)[0].find("varying with theta_h and at grazing angles;"),

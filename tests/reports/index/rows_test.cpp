@@ -80,9 +80,9 @@ TEST(IndexRow, OfCompensationsUnderSingleLightsIsThatOfTheirPictures) {
     if (s.roughness >= 0.5 && s.id == "kulla_conty") kulla = std::max(kulla, s.delta_e + s.error);
     if (s.roughness < 0.5 && s.id == "single") below = std::max(below, s.delta_e + s.error);
   }
-  EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_EQ(row.error,
-            fmt::format("{} (one bounce: {})", up_to(std::max(below, kulla)), at_most(nothing)));
+  EXPECT_EQ(row.take, "Kulla and Conty from roughness 0.5 on, one bounce below");
+  EXPECT_EQ(row.error, fmt::format("{} in all (one bounce: {})", up_to(std::max(below, kulla)),
+                                   at_most(nothing)));
   EXPECT_NE(below, kulla);
   EXPECT_EQ(of(decisions(facts(r)), "Multiple scattering under single lights, F0 0.04").error,
             "ΔE ≤ 1.4");
@@ -107,10 +107,10 @@ TEST(IndexRow, NamesTheFormThatLeavesLessBelowWhereItsOwnBegins) {
     r.compensations.push_back(c);
   }
   const auto row = of(decisions(facts(r)), "Multiple scattering under single lights");
-  EXPECT_EQ(row.take, "Kulla and Conty, from roughness 0.5 on");
-  EXPECT_NE(
-      row.unless.find("; or roughness below 0.5 matters: then Turquin there, ΔE ≤ 5.8, 8.0 ns"),
-      row.unless.npos)
+  EXPECT_EQ(row.take, "Kulla and Conty from roughness 0.5 on, one bounce below");
+  EXPECT_NE(row.unless.find("; or roughness below 0.5 matters: then Turquin for those, with ΔE ≤ "
+                            "5.8 there, in 8.0 ns"),
+            row.unless.npos)
       << row.unless;
 }
 
@@ -130,8 +130,9 @@ TEST(IndexRow, OfDarkMetalHasItsOwnRoughness) {
   const auto all = decisions(facts(r));
   const std::string lights = "Multiple scattering under single lights, ";
   EXPECT_EQ(of(all, lights + "F0 0.9 (bright metal)").take,
-            "Kulla and Conty, from roughness 0.25 on");
-  EXPECT_EQ(of(all, lights + "F0 0.5 (dark metal)").take, "Kulla and Conty, from roughness 0.5 on");
+            "Kulla and Conty from roughness 0.25 on, one bounce below");
+  EXPECT_EQ(of(all, lights + "F0 0.5 (dark metal)").take,
+            "Kulla and Conty from roughness 0.5 on, one bounce below");
   EXPECT_EQ(of(all, lights + "F0 0.04 (no metal)").error, "ΔE ≤ 0.3")
       << "what one bounce lacks at 0.25 is not seen";
 }

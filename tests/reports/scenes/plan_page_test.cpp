@@ -183,6 +183,20 @@ TEST(PlanPage, WritesADifferenceThatIsTinyAsItIs) {
   place_of(page, "the worst point differs by 8.0·10⁻⁷.");
 }
 
+TEST(PlanPage, CallsNoPlanSlowByWhatItDrops) {
+  GONIO_MANY_FITS();
+  auto p = plan();
+  auto& m = p.materials.at(0);
+  m.speedup = 1 / 1.6;
+  place_of(plan_page_html(plastic_scene(), p), "The plan makes red plastic 1.6\u202f× as slow.");
+  p.cost = scene::Cost::time;
+  const auto page = plan_page_html(plastic_scene(), p);
+  place_of(page,
+           "The plan makes red plastic 1.6\u202f× as slow: no set of forms as fast as all effects "
+           "keeps the tolerance with a plan's margin.");
+  EXPECT_EQ(page.find("Dropping what this scene does not need"), page.npos);
+}
+
 TEST(PlanPage, NamesTheEndsOfTheSpeedsOfManyMaterials) {
   GONIO_MANY_FITS();
   auto p = plan();
