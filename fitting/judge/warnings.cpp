@@ -248,8 +248,7 @@ std::vector<std::string> misfit_in_words(const Misfit& m, bool allowed_for) {
                                (allowed_for ? "; intervals are widened" : "")};
   if (const auto& c = m.worst_cell)
     all.push_back(fmt::format(
-        "the misfit is most certain around theta_h {:.2g}°, theta_d {:.2g}°: on "
-        "average {}",
+        "for instance, around theta_h {:.2g}°, theta_d {:.2g}° the model is on average {}",
         (c->theta_h_from_deg + c->theta_h_to_deg) / 2,
         (c->theta_d_from_deg + c->theta_d_to_deg) / 2, deviation_in_words(1 + c->difference)));
   return all;

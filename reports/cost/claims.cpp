@@ -50,12 +50,11 @@ void exact_is_slow(Findings& to, const CostRows& r) {
   if (!schlick || !exact || !model || !exact_model) return;
   const double term = exact->time.ns / schlick->time.ns,
                whole = exact_model->time.ns / model->time.ns;
-  to.judge(
-      "the exact Fresnel equations are slow", "",
-      verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
-      fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
-      "the form is that of dielectrics, the model GGX composed of its terms. Times are in float, "
-      "from cache.");
+  to.judge("the exact Fresnel equations are slow", "",
+           verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
+           fmt::format("{:.1f} times Schlick's time, {:.2f} in a whole model", term, whole),
+           "timed are the equations of a dielectric, and GGX composed of its terms, in float from "
+           "cache.");
 }
 
 void pow5(Findings& to, const CostRows& r) {

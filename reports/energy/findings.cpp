@@ -302,7 +302,8 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
   to.judge("the mobile form's clamp of D at 2048 hardly shows", "", verdict_on_small(most.lost),
            fmt::format("{} of the highlight is lost at roughness {:g}", percent(most.lost),
                        most.roughness),
-           fmt::format("the clamp acts below roughness {:.3f}. The loss is that seen head on.",
+           fmt::format("the form's D has no 1/π, so the clamp acts below roughness {:.3f}. The "
+                       "loss is that seen head on.",
                        reached));
 }
 

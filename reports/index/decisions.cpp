@@ -344,9 +344,11 @@ std::string nearer_below(const Facts& f, double f0, bool of_image_light, const C
     if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
         way && c.of_image_light == of_image_light && most_below(*way, pays.from) < least)
       best = &c, least = most_below(*way, pays.from);
-  return best ? fmt::format("roughness below {:g} matters: then {} for those, with {} there, in {}",
-                            pays.from, name_of_form(best->id), delta_at_most(least),
-                            ns_text(best->without_ns + best->ns))
+  return best ? fmt::format(
+                    "{} below roughness {:g} is too much: then {} there in place of one "
+                    "bounce, {}, {}",
+                    delta_at_most(pays.below), pays.from, name_of_form(best->id),
+                    delta_at_most(least), ns_text(best->without_ns + best->ns))
               : "";
 }
 

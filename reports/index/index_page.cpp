@@ -345,9 +345,10 @@ std::string index_page_html(const ReportIndex& i) {
     out.sections.push_back(
         {"What masking's accuracy costs",
          "The error of G₂ against height-correlated Smith, over the time of one sample. Forms are "
-         "timed in several processes. The dashed line joins the best trade-offs: every more exact "
-         "form took longer in each process. If two forms are equally exact, the faster is on it. "
-         "Bars hold the middle half of the processes. Hammon's way to write Unreal's joint form "
+         "timed in several processes. The dashed line joins the best trade-offs. A form is left "
+         "off it if a more exact form was as fast in any process. If two forms are equally exact, "
+         "the faster is on it. Bars hold the middle half of the processes. Hammon's way to write "
+         "Unreal's joint form "
          "is a point of its own. The RMS error is over other directions than that of the masking "
          "row.",
          {page::Shown{i.front.figures[0].family, {}, 480}},

@@ -138,7 +138,8 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
            fmt::format("at roughness {:g} it lets through {} than exact Smith.", half.roughness,
                        beside(half.value / half.smith)));
   to.judge("with k = (r+1)²/8 the edge is 72 % darker, like that of a medium roughness", "",
-           verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith),
+           verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith,
+                   std::abs(1 - remapped.value - 0.72) < 0.005),
            fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", remapped.value, remapped.smith,
                        remapped.nov),
            fmt::format("this k darkens the edge by {}, exact Smith of roughness {:.2g} by {}.",

@@ -87,16 +87,18 @@ void savings(Findings& to, const ScenesRows& r) {
                                 : "set of forms as fast as all effects"));
   }
   to.headline = fmt::format(
-      "Leaving out what nobody sees makes a shader faster in {} scenes whose plans hold, and saves "
-      "up to {} of its time.{}",
-      save, up_to,
-      slower.empty()
-          ? ""
-          : fmt::format(
-                " In {} others the usual shader (all effects, with Kulla and Conty's "
-                "compensation) is not shown to keep the tolerance. The plan keeps it and takes up "
-                "to {} times as long.",
-                slower.size(), slowest_of(slower)));
+      "Plans hold in {} scenes. In {} of them leaving out what nobody sees saves "
+      "time, up to {}.",
+      of_all(held.size(), r.rows.size()), number_or_none(held.size() - none.size() - slower.size()),
+      up_to);
+  if (!none.empty())
+    to.headline += fmt::format(" In {} the plan takes about as long as all effects.", none.size());
+  if (!slower.empty())
+    to.headline += fmt::format(
+        " In {} it takes up to {} times as long as all effects with Kulla and Conty's "
+        "compensation: "
+        "they are not shown to keep the tolerance there.",
+        slower.size(), slowest_of(slower));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

@@ -55,15 +55,14 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
     if (m.material == "IOR 1.5") glass = &m;
   }
   if (!glass) return;
-  to.judge(
-      "Schlick's error is significantly less than that of other factors",
-      "Burley 2012, Physically-Based Shading at Disney",
-      verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
-      fmt::format("glass ΔE2000 {} against {} of masking",
-                  rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
-      fmt::format("The other factor is Unreal's joint masking. Metals with less than half of its "
-                  "error under Schlick: {}. Dielectrics: {}.",
-                  of_all(smaller[1], all[1]), of_all(smaller[0], all[0])));
+  to.judge("Schlick's error is significantly less than that of other factors",
+           "Burley 2012, Physically-Based Shading at Disney",
+           verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
+           fmt::format("glass ΔE2000 {} against {} of masking",
+                       rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
+           fmt::format("The other factor is Unreal's joint masking. Schlick's error is less than "
+                       "half of the masking's for {} metals and {} of the dielectrics.",
+                       of_all(smaller[1], all[1]), number_or_none(smaller[0])));
 }
 
 void means_metal(Findings& to) {

@@ -73,15 +73,15 @@ TEST(Warnings, TellAMisfitsSizeAndItsPlaceApart) {
   EXPECT_EQ(misfit_in_words(m, true),
             (std::vector<std::string>{"beyond noise the model is off by a factor of 1.088, "
                                       "varying with every angle; intervals are widened",
-                                      "the misfit is most certain around theta_h 16°, "
-                                      "theta_d 68°: on average too dark by a factor of 1.43"}));
+                                      "for instance, around theta_h 16°, theta_d 68° the model is "
+                                      "on average too dark by a factor of 1.43"}));
   m.follows = {"theta_h", "grazing angles"};
   EXPECT_NE(misfit_in_words(m, true)[0].find("varying with theta_h and at grazing angles;"),
             std::string::npos);
   m.worst_cell->difference = 2.4;
-  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": on average too bright by a factor of 3.4"));
+  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(" on average too bright by a factor of 3.4"));
   m.worst_cell->difference = 1.0 / 150 - 1;
-  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(": on average too dark by a factor of 150"));
+  EXPECT_TRUE(misfit_in_words(m, true)[1].ends_with(" on average too dark by a factor of 150"));
   m.told = false;
   EXPECT_TRUE(misfit_in_words(m, true).empty());
 }

@@ -296,13 +296,12 @@ TEST(ScenesFindings, CountAPlanAsFasterWhereItsTableSaysSo) {
   const auto counted = [&](double speedup, const char* scenes) {
     r.rows[1].speedup_float = speedup;
     r.rows[1].ns_float = 10 / speedup;
-    EXPECT_EQ(scenes::speed(speedup) == "about as fast", scenes[0] == '1');
+    EXPECT_EQ(scenes::speed(speedup) == "about as fast", scenes[3] == '1');
     const auto headline = findings(r).headline;
-    EXPECT_NE(headline.find(std::string("makes a shader faster in ") + scenes), headline.npos)
-        << headline;
+    EXPECT_NE(headline.find(scenes), headline.npos) << headline;
   };
-  counted(1.13, "2 of 3 scenes");
-  counted(1.12, "1 of 3 scenes");
+  counted(1.13, "In 2 of them leaving out");
+  counted(1.12, "In 1 of them leaving out");
 }
 
 TEST(ScenesFindings, BlameTheTableOnlyWhereAPlanKeepsIt) {
