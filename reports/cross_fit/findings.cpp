@@ -211,8 +211,8 @@ void lost_energy(Findings& to, const CrossFitRows& r) {
         fmt::format("F0 of {} shifts {} there, {}.", group.name, span(f0, signed_percent), by_log));
     if (f0.at_bound > 0)
       to.say(
-          fmt::format("The shift of F0 is known for {} values; the others ended at a bound or "
-                      "were not determined.",
+          fmt::format("The shift of F0 is known for {} values; the fits do not determine the "
+                      "others.",
                       of_all(f0.found.size(), f0.all)));
   }
   const auto all = cases_of(r, {all_orders, "exact"});

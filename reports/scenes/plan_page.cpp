@@ -369,16 +369,26 @@ std::string unit_of(const scene::Tolerance& t) {
   return t.metric == scene::Metric::relative ? "" : "ΔE2000 ";
 }
 
+/// "3.8", "3.6": a number and what it exceeds, both rounded up as everywhere on the page, to as few digits as tell them apart.
+std::pair<std::string, std::string> told_apart(double larger, double smaller, int digits) {
+  constexpr int all_digits = 15;
+  std::pair<std::string, std::string> both;
+  for (; digits <= all_digits && both.first == both.second; ++digits)
+    both = {rounded_up(larger, digits), rounded_up(smaller, digits)};
+  return both;
+}
 /// What a set exceeds that a plan may not.
 std::string exceeded(const scene::Judgement& j, const scene::Margin& margin, bool bounded) {
-  if (bounded ? margin.is_taken_by_worst(j) : j.worst > margin.most_worst)
-    return fmt::format("differs by {} at its worst point, and {} is allowed", rounded_up(j.worst),
-                       rounded_down(margin.most_worst));
-  return bounded ? fmt::format(
-                       "may exceed the limit at {} % of all points, and {} % is allowed, so "
-                       "that a verification on other points agrees",
-                       rounded_up(100 * j.bound, 3), rounded_down(100 * margin.most_exceeding, 3))
-                 : "exceeds the limit at too many points";
+  if (bounded ? margin.is_taken_by_worst(j) : j.worst > margin.most_worst) {
+    const auto [worst, most] = told_apart(j.worst, margin.most_worst, 2);
+    return fmt::format("differs by {} at its worst point, and {} is allowed", worst, most);
+  }
+  if (!bounded) return "exceeds the limit at too many points";
+  const auto [share, most] = told_apart(100 * j.bound, 100 * margin.most_exceeding, 3);
+  return fmt::format(
+      "may exceed the limit at {} % of all points, and {} % is allowed, so that a verification on "
+      "other points agrees",
+      share, most);
 }
 
 }  // namespace
@@ -460,8 +470,8 @@ std::string plan_page_html(const scene::Scene& s, const scene::Plan& p) {
                : fmt::format("A plan holds with a margin, so that a verification on other points "
                              "agrees: at most {} % may exceed the limit, and the worst may differ "
                              "by {}. ",
-                             rounded_down(100 * p.materials[0].margin.most_exceeding, 3),
-                             rounded_down(p.materials[0].margin.most_worst))),
+                             rounded_up(100 * p.materials[0].margin.most_exceeding, 3),
+                             rounded_up(p.materials[0].margin.most_worst))),
        {t}},
       spheres(s, p)};
   for (const auto& m : p.materials) out.sections.push_back(one(m, p, unit_name));
