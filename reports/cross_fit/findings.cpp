@@ -154,7 +154,7 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
       to.headline = fmt::format(
           "F0 of glass comes out off {} when fitted with {} to exact single scattering{}.",
           span(f0->first, f0->second, outward), with(form),
-          whole ? "; slices that reach the horizon are not counted" : "");
+          whole ? "; fits to data down to the horizon are not counted" : "");
     if (whole)
       to.say(fmt::format(
           "On a slice down to the horizon, where no instrument is trusted, it is off {}.",

@@ -335,21 +335,26 @@ std::optional<Compensated> compensated(const Facts::Scattering& way,
   return c;
 }
 
-/// Words for the form that leaves least below where compensation pays, if what one bounce leaves there is seen.
-std::string nearer_below(const Facts& f, double f0, bool of_image_light, const Compensated& pays) {
-  if (!(pays.below > side_by_side)) return "";
-  const Facts::Compensation* best = nullptr;
+/// What is done below where a compensation begins: another of them, or one bounce.
+struct Below {
+  const Facts::Compensation* form = nullptr;  ///< null: one bounce
+  double error;                               ///< greatest ΔE2000
+};
+/// The form but `taken` that leaves least there, if what one bounce leaves is seen and the form leaves visibly less.
+Below nearest_below(const Facts& f,
+                    std::string_view taken,
+                    double f0,
+                    bool of_image_light,
+                    const Compensated& pays) {
+  Below best{nullptr, pays.below};
+  if (!(pays.below > side_by_side)) return best;
   double least = pays.below - just_seen;
   for (const auto& c : f.compensations)
     if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
-        way && c.of_image_light == of_image_light && most_below(*way, pays.from) < least)
-      best = &c, least = most_below(*way, pays.from);
-  return best ? fmt::format(
-                    "{} below roughness {:g} is too much: then {} there in place of one "
-                    "bounce, {}, {}",
-                    delta_at_most(pays.below), pays.from, name_of_form(best->id),
-                    delta_at_most(least), ns_text(best->without_ns + best->ns))
-              : "";
+        way && c.id != taken && c.of_image_light == of_image_light &&
+        most_below(*way, pays.from) < least)
+      best = {&c, least = most_below(*way, pays.from)};
+  return best;
 }
 
 void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_image_light) {
@@ -364,12 +369,6 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
         all.push_back({c.id, pays->both(), c.ns, c.spread});
   const auto* taken = choose(all, single, side_by_side);
   const auto* other = nearest_cheaper(all, *taken);
-  std::vector<std::string> unless;
-  if (other && other->form != single)
-    unless.push_back(fmt::format(
-        "time is short: then {} from roughness {:g} on, {} in all", name_of_form(other->form),
-        compensated(*scattering_of(f, other->form, f0, of_image_light), *nothing)->from,
-        delta_at_most(other->error)));
   Decision d{fmt::format("Multiple scattering under {}, F0 {:g} ({})",
                          of_image_light ? "image-based light" : "single lights", f0,
                          f0 == bright ? "bright metal"
@@ -383,15 +382,22 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     const auto pays = *compensated(*scattering_of(f, taken->form, f0, of_image_light), *nothing);
-    d.take = fmt::format("{} from roughness {:g} on, one bounce below", name_of_form(taken->form),
-                         pays.from);
-    d.error += fmt::format(" in all (one bounce: {})", at_most(without));
-    if (auto below = nearer_below(f, f0, of_image_light, pays); !below.empty())
-      unless.push_back(std::move(below));
-    d.cost = fmt::format("{} instead of {}, one call at a time (not comparable with other rows)",
-                         ns_text(costs->without_ns + taken->ns), ns_text(costs->without_ns));
+    const auto below = nearest_below(f, taken->form, f0, of_image_light, pays);
+    d.take = fmt::format("{} from roughness {:g} on, {} below", name_of_form(taken->form),
+                         pays.from, below.form ? name_of_form(below.form->id) : "one bounce");
+    d.error = fmt::format("{} in all (one bounce: {})",
+                          delta_at_most(std::max(pays.error, below.error)), at_most(without));
+    d.cost = fmt::format(
+        "{}{} instead of {}, one call at a time (not comparable with other rows)",
+        ns_text(costs->without_ns + taken->ns),
+        below.form ? ", below " + ns_text(below.form->without_ns + below.form->ns) + "," : "",
+        ns_text(costs->without_ns));
   }
-  d.unless = fmt::to_string(fmt::join(unless, "; or "));
+  if (other && other->form != single)
+    d.unless = fmt::format(
+        "time is short: then {} from roughness {:g} on, {} in all", name_of_form(other->form),
+        compensated(*scattering_of(f, other->form, f0, of_image_light), *nothing)->from,
+        delta_at_most(other->error));
   to.push_back(std::move(d));
 }
 

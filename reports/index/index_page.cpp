@@ -381,14 +381,12 @@ std::string index_page_html(const ReportIndex& i) {
               "is compared, which was made for the split sum."}},
             {"Where compensation begins",
              {fmt::format(
-                 "At the least roughness where one bounce is off by more than ΔE {} and "
-                 "compensation is "
-                 "nearer there and at all greater roughnesses, under the worse of the lights. "
-                 "Under "
-                 "single lights it has to be nearer by more than twice the walks' error. Below "
-                 "that "
-                 "roughness there is one bounce. Compensation is taken only if it lowers the "
-                 "greatest ΔE2000 by {} or more.",
+                 "At the least roughness where one bounce is off by more than ΔE {0} and "
+                 "compensation is nearer there and at all greater roughnesses, under the worse of "
+                 "the lights. Under single lights it has to be nearer by more than twice the "
+                 "walks' error. Compensation is taken only if it lowers the greatest ΔE2000 by {1} "
+                 "or more. Below its roughness there is one bounce; if that is off by more than "
+                 "{0} and another compensation by {1} less, that one.",
                  plain(side_by_side), plain(just_seen))}},
             {"Split sum", {"The exposure gives a white ball half of the display's white."}},
             {"Diffuse",
@@ -405,9 +403,8 @@ std::string index_page_html(const ReportIndex& i) {
              {"Medians over several processes. Both forms of a cost are timed in each process, and "
               "the cost is the median of their differences. It counts if every process found the "
               "same sign, and if it is larger than the spread and than 3 % of the time taken. "
-              "Compensations are "
-              "timed in one process, one light and view at a time, and GTR in a whole "
-              "highlight."}}}}},
+              "Compensations are timed in one process, one light and view at a time. The "
+              "distribution row times whole highlights."}}}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;
   out.setting = fmt::format(
