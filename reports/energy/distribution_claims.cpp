@@ -68,14 +68,13 @@ void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
   };
   const auto low = of("riemann"), middle = of("riemann_midpoint"), end = r.light.irradiance.end();
   if (low == end || middle == end) return;
-  to.judge(
-      "irradiance is a Riemann sum, divided by its samples", "",
-      verdict_on_small(std::abs(low->bias)),
-      fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
-      fmt::format(
-          "this is the error under a sky brighter towards the zenith. With samples at the middle "
-          "of each step it is {}.",
-          percent(middle->bias, 2)));
+  to.judge("irradiance is a Riemann sum, divided by its samples", "",
+           verdict_on_small(std::abs(low->bias)),
+           fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
+           fmt::format(
+               "it is right in the limit of many samples. This is the error under a sky brighter "
+               "towards the zenith, with samples where steps begin; at their middle it is {}.",
+               percent(middle->bias, 2)));
 }
 
 }  // namespace

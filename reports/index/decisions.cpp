@@ -385,19 +385,22 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     const auto below = nearest_below(f, taken->form, f0, of_image_light, pays);
     d.take = fmt::format("{} from roughness {:g} on, {} below", name_of_form(taken->form),
                          pays.from, below.form ? name_of_form(below.form->id) : "one bounce");
-    d.error = fmt::format("{} in all (one bounce: {})",
+    d.error = fmt::format("{} at every roughness (one bounce: {})",
                           delta_at_most(std::max(pays.error, below.error)), at_most(without));
     d.cost = fmt::format(
         "{}{} instead of {}, one call at a time (not comparable with other rows)",
         ns_text(costs->without_ns + taken->ns),
-        below.form ? ", below " + ns_text(below.form->without_ns + below.form->ns) + "," : "",
+        below.form ? fmt::format(", or {} below roughness {:g},",
+                                 ns_text(below.form->without_ns + below.form->ns), pays.from)
+                   : "",
         ns_text(costs->without_ns));
   }
   if (other && other->form != single)
-    d.unless = fmt::format(
-        "time is short: then {} from roughness {:g} on, {} in all", name_of_form(other->form),
-        compensated(*scattering_of(f, other->form, f0, of_image_light), *nothing)->from,
-        delta_at_most(other->error));
+    d.unless =
+        fmt::format("time is short: then {} from roughness {:g} on, {} at every roughness",
+                    name_of_form(other->form),
+                    compensated(*scattering_of(f, other->form, f0, of_image_light), *nothing)->from,
+                    delta_at_most(other->error));
   to.push_back(std::move(d));
 }
 

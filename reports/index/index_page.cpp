@@ -208,6 +208,18 @@ Cell with_aside(const std::string& broken, std::string look = {}, std::string ti
       std::move(look)};
 }
 
+/// The time of the same highlight as rows call it "a whole model".
+std::string composed_time(const Facts& f) {
+  const auto at = std::ranges::find(f.whole, "ggx/smith_ggx.correlated/schlick", &Facts::Time::id);
+  return at == f.whole.end()
+             ? ""
+             : fmt::format(", and {} ns composed of its terms, which “a whole model” stands for",
+                           significant(at->ns, 2));
+}
+/// A quick report times everything in one process.
+bool is_timed_in_several_processes(const Facts& f) {
+  return std::ranges::any_of(f.in_cache, [](const Facts::Time& t) { return t.each.size() > 1; });
+}
 std::vector<Part> lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
   std::string cost = "CPU time of one evaluation in float beyond the usual form";
@@ -216,7 +228,8 @@ std::vector<Part> lead(const ReportIndex& i) {
                         m->isa);
   cost += ".";
   if (m && m->model_ns)
-    cost += fmt::format(" A whole GGX highlight takes {} ns.", significant(*m->model_ns, 2));
+    cost += fmt::format(" A whole GGX highlight takes {} ns as one function{}.",
+                        significant(*m->model_ns, 2), composed_time(i.facts));
   if (m && m->others && *m->others >= 0.25)
     cost += fmt::format(
         " The machine was busy: other programs took {} of {} processors, so times may be too long.",
@@ -226,21 +239,22 @@ std::vector<Part> lead(const ReportIndex& i) {
           ? ""
           : fmt::format("CIEDE2000. Nobody sees {} or less. Up to {} is seen only side by side.",
                         plain(just_seen), plain(side_by_side));
-  return {Prose{"A form is one formula for one part of a material model. For each part the table "
-                "names the form to ship.",
-                "lead"},
-          Pairs{{{"Error left",
-                  {"The distance to exact Fresnel, to height-correlated Smith masking and to all "
-                   "bounces of light. For diffuse it is the distance to energy-preserving "
-                   "Oren–Nayar (EON), which below a lobe gets the light that the lobe lets "
-                   "through."}},
-                 {"Costs", {cost}},
-                 {"Usual forms",
-                  {"Schlick's Fresnel, Schlick's masking with k = (r+1)²/8, GGX, one bounce, "
-                   "Lambert."}},
-                 {"ΔE", {colour}},
-                 {"G₂", {"Masking and shadowing together."}},
-                 {"r, cosines", {"Roughness r is √α. Cosines are those to the normal."}}}}};
+  return {
+      Prose{"A form is one formula for one part of a material model. For each part the table "
+            "names the form to ship.",
+            "lead"},
+      Pairs{
+          {{"Error left",
+            {"The distance to exact Fresnel, to height-correlated Smith masking and to all bounces "
+             "of light. Diffuse forms are compared with energy-preserving Oren–Nayar (EON). Under "
+             "a specular lobe, EON is scaled by the light that the lobe lets through."}},
+           {"Costs", {cost}},
+           {"Usual forms",
+            {"Schlick's Fresnel, Schlick's masking with k = (r+1)²/8, GGX, one bounce, "
+             "Lambert."}},
+           {"ΔE", {colour}},
+           {"G₂", {"Masking and shadowing together."}},
+           {"r, cosines", {"Roughness r is √α. Cosines are those to the normal."}}}}};
 }
 
 Section what_to_ship(const ReportIndex& i) {
@@ -344,13 +358,17 @@ std::string index_page_html(const ReportIndex& i) {
   if (!i.front.figures.empty())
     out.sections.push_back(
         {"What masking's accuracy costs",
-         "The error of G₂ against height-correlated Smith, over the time of one sample. Forms are "
-         "timed in several processes. The dashed line joins the best trade-offs. A form is left "
-         "off it if a more exact form was as fast in any process. If two forms are equally exact, "
-         "the faster is on it. Bars hold the middle half of the processes. Hammon's way to write "
-         "Unreal's joint form "
-         "is a point of its own. The RMS error is over other directions than that of the masking "
-         "row.",
+         std::string("The error of G₂ against height-correlated Smith, over the time of one "
+                     "sample. The dashed line joins the best trade-offs. ") +
+             (is_timed_in_several_processes(i.facts)
+                  ? "Forms are timed in several processes: a form is left off the line if a more "
+                    "exact form was as fast in any of them. Bars hold the middle half of the "
+                    "processes. "
+                  : "A form is left off the line if a more exact form is as fast within both "
+                    "spreads. Bars are spreads in one process. ") +
+             "If two forms are equally exact, the faster is on the line. Hammon's way to write "
+             "Unreal's joint form is a point of its own. The RMS error is over other directions "
+             "than that of the masking row.",
          {page::Shown{i.front.figures[0].family, {}, 480}},
          "time"});
   out.sections.push_back(cards(i));
@@ -385,8 +403,9 @@ std::string index_page_html(const ReportIndex& i) {
                  "compensation is nearer there and at all greater roughnesses, under the worse of "
                  "the lights. Under single lights it has to be nearer by more than twice the "
                  "walks' error. Compensation is taken only if it lowers the greatest ΔE2000 by {1} "
-                 "or more. Below its roughness there is one bounce; if that is off by more than "
-                 "{0} and another compensation by {1} less, that one.",
+                 "or more. Below that roughness one bounce is used. If it is off by more than ΔE "
+                 "{0} there and another compensation by at least {1} less, that compensation is "
+                 "used.",
                  plain(side_by_side), plain(just_seen))}},
             {"Split sum", {"The exposure gives a white ball half of the display's white."}},
             {"Diffuse",
@@ -400,9 +419,13 @@ std::string index_page_html(const ReportIndex& i) {
              {"The greatest value at the roughnesses, views and points that were computed. "
               "Between them it may be more, most so under single lights."}},
             {"Times",
-             {"Medians over several processes. Both forms of a cost are timed in each process, and "
-              "the cost is the median of their differences. It counts if every process found the "
-              "same sign, and if it is larger than the spread and than 3 % of the time taken. "
+             {std::string(is_timed_in_several_processes(i.facts)
+                              ? "Medians over several processes. Both forms of a cost are timed in "
+                                "each process, and the cost is the median of their differences. It "
+                                "counts if every process found the same sign, and if it is larger "
+                                "than the spread and than 3 % of the time taken. "
+                              : "Medians in one process, which is what --quick is for. A cost "
+                                "counts if it is larger than both spreads together. ") +
               "Compensations are timed in one process, one light and view at a time. The "
               "distribution row times whole highlights."}}}}},
        "about"});

@@ -313,11 +313,11 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
     fact("reciprocity",
          h.reciprocity_note.empty() ? "cannot be checked in this layout" : h.reciprocity_note);
   fact("noise", noise_words(h.noise));
-  fact("peak", h.peak ? fmt::format("{}; height {} 1/sr{}, over a base of {}",
-                                    peak_in_words(*h.peak), significant(h.peak->height),
-                                    h.peak_profiles == 1 ? " in the one profile with enough samples"
-                                                         : " typically",
-                                    significant(h.peak->base))
+  fact("peak", h.peak ? h.peak_profiles == 1
+                            ? peak_in_words(*h.peak)
+                            : fmt::format("{}; height typically {} 1/sr over a base of {}",
+                                          peak_in_words(*h.peak), significant(h.peak->height),
+                                          significant(h.peak->base))
                : h.peak_profiles == 0
                    ? "none found: too few samples near the half vector"
                    : fmt::format("none found: near the half vector values are {} times the base",

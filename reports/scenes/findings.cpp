@@ -95,8 +95,8 @@ void savings(Findings& to, const ScenesRows& r) {
     to.headline += fmt::format(" In {} the plan takes about as long as all effects.", none.size());
   if (!slower.empty())
     to.headline += fmt::format(
-        " In {} the plan is slower, up to {} times, than all effects with Kulla and Conty's "
-        "compensation. That faster shader is not shown to keep the tolerance there.",
+        " In {} the plan needs costlier forms. They take up to {} times as long as all effects "
+        "with Kulla and Conty's compensation, which is not shown to keep the tolerance there.",
         slower.size(), slowest_of(slower));
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "

@@ -144,7 +144,7 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   const auto& bounces = about(all, "Multiple scattering under single lights");
   EXPECT_EQ(bounces.subject, "Multiple scattering under single lights, F0 0.9 (bright metal)");
   EXPECT_EQ(bounces.take, "Turquin from roughness 0.4 on, one bounce below");
-  EXPECT_EQ(bounces.error, "ΔE ≤ 1.9 in all (one bounce: ≤ 18)");
+  EXPECT_EQ(bounces.error, "ΔE ≤ 1.9 at every roughness (one bounce: ≤ 18)");
   EXPECT_EQ(bounces.unless, "");
   const auto& plastic = about(all, "Multiple scattering under single lights, F0 0.04 (no metal)");
   EXPECT_EQ(plastic.take, "One bounce");
@@ -230,7 +230,8 @@ TEST(Decisions, ChangeWhereAThresholdIsCrossed) {
     if (s.id == "turquin") s.delta_e[2] = 2.4;
   auto bounces = about(decisions(f), "Multiple scattering");
   EXPECT_EQ(bounces.take, "Kulla and Conty from roughness 0.4 on, one bounce below");
-  EXPECT_EQ(bounces.unless, "time is short: then Turquin from roughness 0.4 on, ΔE ≤ 2.4 in all");
+  EXPECT_EQ(bounces.unless,
+            "time is short: then Turquin from roughness 0.4 on, ΔE ≤ 2.4 at every roughness");
   for (auto& s : f.scattering)
     if (s.id == "kulla_conty") s.delta_e[1] = 2.6;  // further off than nothing up to there
   bounces = about(decisions(f), "Multiple scattering");
