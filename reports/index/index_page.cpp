@@ -424,10 +424,10 @@ std::string index_page_html(const ReportIndex& i) {
                                 "each process, and the cost is the median of their differences. It "
                                 "counts if every process found the same sign, and if it is larger "
                                 "than the spread and than 3 % of the time taken. "
-                              : "Medians in one process, which is what --quick is for. A cost "
+                              : "Medians in one process, as --quick asks. A cost "
                                 "counts if it is larger than both spreads together. ") +
-              "Compensations are timed in one process, one light and view at a time. The "
-              "distribution row times whole highlights."}}}}},
+              "Compensations are timed in one process, one light and view at a time." +
+              (i.facts.tails ? " The distribution row times whole highlights." : "")}}}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;
   out.setting = fmt::format(
