@@ -52,6 +52,23 @@ std::string html_of(const FitDocument& d,
   return fit_page_html(d, t, inspect(t), make_fit_page(t, test::glossy()));
 }
 
+TEST(FitPage, SaysWhereItsModelRisesAboveAPicture) {
+  const Table t = test::filled(test::in_out_grid(), test::glossy());
+  FitDocument d;
+  d.model = "ggx/smith_ggx.correlated/schlick";
+  const auto rises = [&](double times) {
+    auto page = make_fit_page(t, test::glossy());
+    for (auto& cut : page.curves)
+      for (auto& channel : cut.model)
+        for (double& f : channel) f *= times;
+    return fit_page_html(d, t, inspect(t), page).find("the model rises above the picture") !=
+           std::string::npos;
+  };
+  EXPECT_FALSE(rises(1));
+  EXPECT_FALSE(rises(2)) << "the picture reaches to it";
+  EXPECT_TRUE(rises(10));
+}
+
 TEST(FitPage, ShowsAParameterWithItsIntervalLimitOrReason) {
   FitDocument d;
   d.model = "ggx/smith_ggx.correlated/schlick";
