@@ -49,7 +49,7 @@ struct Claim {
   std::string source;  ///< public, where it stands: "Burley 2012, …"; empty: it is common talk
   enum class Judged { holds, partly, fails } judged;
   std::string figure;    ///< the one that decides, with what it is of: "36 % of F, at 55°"
-  std::string verdict;   ///< a sentence with figures
+  std::string verdict;   ///< what was tested, beside the figure; empty: the figure says it
   std::string anchor{};  ///< of the report's page, where it is shown; empty: its top
 };
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <optional>
 #include <utility>
 
@@ -49,10 +50,6 @@ const Candidate* nearest_cheaper(const Candidates& all, const Candidate& taken) 
   return best;
 }
 
-const Facts::Time* time_of(const std::vector<Facts::Time>& times, std::string_view id) {
-  const auto at = std::ranges::find(times, id, &Facts::Time::id);
-  return at == times.end() ? nullptr : &*at;
-}
 /// Id of the catalogue, of a form that may be a variant of it.
 std::string id_of(std::string_view form) {
   return std::string(form.substr(0, form.find(',')));
@@ -335,12 +332,12 @@ std::optional<Compensated> compensated(const Facts::Scattering& way,
   return c;
 }
 
-/// What is done below where a compensation begins: another of them, or one bounce.
+/// The form for surfaces smoother than those that a compensation is used on: another compensation, or one bounce.
 struct Below {
   const Facts::Compensation* form = nullptr;  ///< null: one bounce
   double error;                               ///< greatest ΔE2000
 };
-/// The form but `taken` that leaves least there, if what one bounce leaves is seen and the form leaves visibly less.
+/// Returns the form other than `taken` that leaves least there; one bounce, if nobody sees what it leaves or what another gains.
 Below nearest_below(const Facts& f,
                     std::string_view taken,
                     double f0,
@@ -362,11 +359,14 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
   if (!nothing) return;
   const double without = std::ranges::max(nothing->delta_e);
   Candidates all{{std::string(single), without, 0, 0}};
+  std::map<std::string, Compensated> used;
   for (const auto& c : f.compensations)
     if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
         way && c.of_image_light == of_image_light)
-      if (const auto pays = compensated(*way, *nothing))
+      if (const auto pays = compensated(*way, *nothing)) {
         all.push_back({c.id, pays->both(), c.ns, c.spread});
+        used.emplace(c.id, *pays);
+      }
   const auto* taken = choose(all, single, side_by_side);
   const auto* other = nearest_cheaper(all, *taken);
   Decision d{fmt::format("Multiple scattering under {}, F0 {:g} ({})",
@@ -381,7 +381,7 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
              {}};
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
-    const auto pays = *compensated(*scattering_of(f, taken->form, f0, of_image_light), *nothing);
+    const auto& pays = used.at(taken->form);
     const auto below = nearest_below(f, taken->form, f0, of_image_light, pays);
     d.take = fmt::format("{} from roughness {:g} on, {} below", name_of_form(taken->form),
                          pays.from, below.form ? name_of_form(below.form->id) : "one bounce");
@@ -396,11 +396,9 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
         ns_text(costs->without_ns));
   }
   if (other && other->form != single)
-    d.unless =
-        fmt::format("time is short: then {} from roughness {:g} on, {} at every roughness",
-                    name_of_form(other->form),
-                    compensated(*scattering_of(f, other->form, f0, of_image_light), *nothing)->from,
-                    delta_at_most(other->error));
+    d.unless = fmt::format("time is short: then {} from roughness {:g} on, {} at every roughness",
+                           name_of_form(other->form), used.at(other->form).from,
+                           delta_at_most(other->error));
   to.push_back(std::move(d));
 }
 
@@ -511,6 +509,11 @@ void precision(std::vector<Decision>& to, const Facts& f) {
 }
 
 }  // namespace
+
+const Facts::Time* time_of(const std::vector<Facts::Time>& times, std::string_view id) {
+  const auto at = std::ranges::find(times, id, &Facts::Time::id);
+  return at == times.end() ? nullptr : &*at;
+}
 
 const Candidate* choose(std::span<const Candidate> all, std::string_view cheap, double enough) {
   const Candidate *nearest = nullptr, *cheapest = nullptr;

@@ -40,6 +40,9 @@ struct Candidate {
 /// \param cheap  form that is shipped unless it shows
 const Candidate* choose(std::span<const Candidate>, std::string_view cheap, double enough);
 
+/// The time of a form or model among these; null: it was not timed.
+const Facts::Time* time_of(const std::vector<Facts::Time>&, std::string_view id);
+
 /// Decisions that these facts support, in the order of the page; those that lack a fact are left out.
 std::vector<Decision> decisions(const Facts&);
 

@@ -210,11 +210,11 @@ Cell with_aside(const std::string& broken, std::string look = {}, std::string ti
 
 /// The time of the same highlight as rows call it "a whole model".
 std::string composed_time(const Facts& f) {
-  const auto at = std::ranges::find(f.whole, "ggx/smith_ggx.correlated/schlick", &Facts::Time::id);
-  return at == f.whole.end()
-             ? ""
-             : fmt::format(", and {} ns composed of its terms, which “a whole model” stands for",
-                           significant(at->ns, 2));
+  const auto* composed = time_of(f.whole, "ggx/smith_ggx.correlated/schlick");
+  return composed
+             ? fmt::format(", and {} ns composed of its terms, which “a whole model” stands for",
+                           significant(composed->ns, 2))
+             : "";
 }
 /// A quick report times everything in one process.
 bool is_timed_in_several_processes(const Facts& f) {
