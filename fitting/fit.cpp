@@ -164,15 +164,13 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
     return {std::move(a), u, u.std_errors(), angles, angles, clustered};
   const auto values = errors(by_value(), stated);
   if (angles < 2) return {std::move(a), values, values.std_errors(), angles, 0, independent};
-  return {
-      std::move(a),
-      wider(std::move(u), values),
-      values.std_errors(),
-      angles,
-      angles,
-      stated
-          ? "the wider of those clustered by incident angle and those of the stated uncertainties"
-          : "the wider of those clustered by incident angle and those of independent values"};
+  return {std::move(a),
+          wider(std::move(u), values),
+          values.std_errors(),
+          angles,
+          angles,
+          stated ? "clustered by incident angle, or those of the stated uncertainties where larger"
+                 : "clustered by incident angle, or those of independent values where larger"};
 }
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.

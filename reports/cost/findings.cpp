@@ -72,9 +72,9 @@ class Sayings {
       return fmt::format("nothing that shows (± {})", ns_text(s.ns_spread));
     };
     said_.headline = fmt::format(
-        "Exact Smith in place of Schlick's k costs {} in cache. A whole GGX model "
-        "with it costs {} where it reads its inputs from memory ({}).",
-        text(*cache), text(*streaming), long_columns(r_.options));
+        "Exact Smith in place of Schlick's k costs {} if its inputs are in cache. In a whole GGX "
+        "model that reads its inputs from memory it costs {}.",
+        text(*cache), text(*streaming));
   }
   const CostSwitch* between(std::string_view from,
                             std::string_view to,
@@ -138,8 +138,7 @@ class Sayings {
     }
     if (on.empty()) return;
     say("Among {} masking forms compared with height-correlated Smith, {} worth their time in "
-        "cache: "
-        "no more exact one may be as fast. {} more may be, but tie with one as exact or more.",
+        "cache: none as exact was faster. For {} more that difference is within the spread.",
         all, on.size() == 1 ? "one is" : fmt::format("{} are", on.size()), number_or_none(ties));
     std::ranges::sort(on, {}, [](const CostRow* r) { return -r->error.rms; });
     constexpr std::size_t told = 4;

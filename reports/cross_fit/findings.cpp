@@ -151,10 +151,9 @@ void f0_of_glass(Findings& to, const CrossFitRows& r) {
                     with(form), span(f0->first, f0->second, outward),
                     whole ? " except one, a slice down to the horizon" : ""));
     if (to.headline.empty())
-      to.headline = fmt::format(
-          "F0 of glass comes out off {} when fitted with {} to exact single scattering{}.",
-          span(f0->first, f0->second, outward), with(form),
-          whole ? "; fits to data down to the horizon are not counted" : "");
+      to.headline = fmt::format("A fit of glass with {} gets F0 wrong {}.{}", with(form),
+                                span(f0->first, f0->second, outward),
+                                whole ? " Tables that reach the horizon are left out." : "");
     if (whole)
       to.say(fmt::format(
           "On a slice down to the horizon, where no instrument is trusted, it is off {}.",

@@ -56,9 +56,10 @@ void phong_is_beckmann(Findings& to, const EnergyRows& r) {
   to.judge("Phong and Beckmann are equivalent by the exponent 2α⁻² − 2",
            "the exponent that Walter et al. 2007 recommend",
            verdict(rough.share < 0.01, smooth.share < 0.01),
-           fmt::format("{} of the facets' projected area lies elsewhere at roughness {:g}",
-                       percent(rough.share, 2), rough.roughness),
-           fmt::format("at roughness {:g} it is {}.", smooth.roughness, percent(smooth.share, 2)));
+           fmt::format("at roughness {:g} they differ by {} of the facets' projected area",
+                       rough.roughness, percent(rough.share, 2)),
+           fmt::format("at roughness {:g} they differ by {}.", smooth.roughness,
+                       percent(smooth.share, 2)));
 }
 
 void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
@@ -70,11 +71,10 @@ void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
   if (low == end || middle == end) return;
   to.judge("irradiance is a Riemann sum, divided by its samples", "",
            verdict_on_small(std::abs(low->bias)),
-           fmt::format("{} at {} samples", percent(low->bias, 2), low->samples),
-           fmt::format(
-               "it is right in the limit of many samples. This is the error under a sky brighter "
-               "towards the zenith, with samples where steps begin; at their middle it is {}.",
-               percent(middle->bias, 2)));
+           fmt::format("the sum is off by {} at {} samples", percent(low->bias, 2), low->samples),
+           fmt::format("with more samples the error vanishes. The sky is brighter towards the "
+                       "zenith. With samples at the middle of each step the sum is off by {}.",
+                       percent(middle->bias, 2)));
 }
 
 }  // namespace

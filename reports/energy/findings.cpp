@@ -56,10 +56,10 @@ void of_white(Findings& to, const EnergyRows& r) {
   for (const auto& c : f->crossings)
     if (c.mu == 0 && c.share == 0.05 && !c.ranges.empty())
       to.headline = fmt::format(
-          "Rough metal goes dark: on average over the hemisphere, one bounce under GGX loses {} or "
-          "more of white light {}, and {} where it is roughest.",
-          percent(c.share), range_text(c.ranges[0].from, c.ranges[0].to, "roughness "),
-          percent(1 - rough.albedo, 2));
+          "Rough metal goes dark: averaged over the hemisphere, one bounce under GGX loses {} of "
+          "white light at roughness {:g}. It loses {} or more {}.",
+          percent(1 - rough.albedo, 2), rough.roughness, percent(c.share),
+          range_text(c.ranges[0].from, c.ranges[0].to, "roughness "));
   const auto normal =
       std::ranges::find_if(f->rows, [](const auto& at) { return at.roughness == 1 && at.mu == 1; });
   const auto* other = find_form(r.forms, "masking.smith_ggx.separable");
@@ -254,11 +254,11 @@ void no_light_is_made(Findings& to, const EnergyRows& r) {
   std::string worst;
   if (most) {
     const auto& at = brightest(*most);
-    worst = fmt::format("worst: {}, {:.3g} times the light that arrives, at {}.", words_for(*most),
-                        at.albedo, place(at.roughness, at.mu));
+    worst = fmt::format("worst: {} reflects {:.3g} times the light that arrives, at {}.",
+                        words_for(*most), at.albedo, place(at.roughness, at.mu));
   }
   to.judge("reflected energy never exceeds incoming", "", verdict(makers == 0, true),
-           fmt::format("{} maskings and whole models exceed it", of_all(makers, makes.size())),
+           fmt::format("{} maskings and whole models reflect more", of_all(makers, makes.size())),
            std::move(worst));
 }
 
@@ -268,9 +268,9 @@ void energy_does_not_stay(Findings& to, const EnergyRows& r) {
   const auto &smooth = f->averages.front(), &rough = f->averages.back();
   to.judge("as roughness grows the highlight widens and dims so that energy stays", "",
            verdict(rough.albedo > 0.99),
-           fmt::format("{} is reflected at roughness {:g}", percent(rough.albedo), rough.roughness),
-           fmt::format("this is one bounce under GGX, with nothing absorbed. At roughness {:g} it "
-                       "is {}.",
+           fmt::format("one bounce under GGX reflects {} at roughness {:g}", percent(rough.albedo),
+                       rough.roughness),
+           fmt::format("no light is absorbed. At roughness {:g} one bounce reflects {}.",
                        smooth.roughness, percent(smooth.albedo)));
 }
 
@@ -287,9 +287,9 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   const auto& row = coat->rows[at];
   to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",
            "Burley 2012, Physically-Based Shading at Disney", verdict_on_small(most),
-           fmt::format("it reflects {} in place of {}", percent(row.albedo),
+           fmt::format("{} is reflected instead of {}", percent(row.albedo),
                        percent(smith->rows[at].albedo)),
-           fmt::format("this is the largest error, at {}, before Fresnel. It is compared with the "
+           fmt::format("this is the worst case, at {}, before Fresnel. It is compared with the "
                        "height-correlated Smith masking of the coat's own distribution.",
                        place(row.roughness, row.mu)));
 }
@@ -303,18 +303,17 @@ void clamped_at_2048(Findings& to, const EnergyRows& r) {
            fmt::format("{} of the highlight is lost at roughness {:g}", percent(most.lost),
                        most.roughness),
            fmt::format("the form's D has no 1/π, so the clamp acts below roughness {:.3f}. The "
-                       "loss is that seen head on.",
+                       "highlight is seen head on.",
                        reached));
 }
 
 void look_of_the_simple_form(Findings& to, const EnergyRows& r) {
   if (!find_form(r.forms, "model.ue_mobile_simple") || r.claims.simple_form.empty()) return;
   const auto& most = *std::ranges::max_element(r.claims.simple_form, {}, &ClaimRows::Look::delta_e);
-  to.judge(
-      "the simple mobile form keeps the look", "", verdict(most.delta_e <= 1),
-      fmt::format("ΔE2000 {:.2g} at {}", most.delta_e, place(most.roughness, most.mu)),
-      fmt::format("it is compared with GGX, Smith and Schlick under even light, for F0 = {:g}.",
-                  most.f0));
+  to.judge("the simple mobile form keeps the look", "", verdict(most.delta_e <= 1),
+           fmt::format("ΔE2000 {:.2g} at {}", most.delta_e, place(most.roughness, most.mu)),
+           fmt::format("compared with GGX, Smith and Schlick under even light, for F0 = {:g}.",
+                       most.f0));
 }
 
 void deviation_of_slopes(Findings& to, const EnergyRows& r) {
@@ -324,8 +323,9 @@ void deviation_of_slopes(Findings& to, const EnergyRows& r) {
   const double growth = last.deviation - first.deviation;
   to.judge("alpha is the standard deviation of the slopes", "",
            verdict(growth < 1e-3 && std::abs(last.deviation - 1) < 1e-3),
-           fmt::format("{:.2f} α for Beckmann, none for GGX", r.claims.beckmann_deviation),
-           fmt::format("over slopes up to {:g} α GGX's is {:.3g} α, and it grows with that limit.",
+           fmt::format("{:.2f} α for Beckmann, infinite for GGX", r.claims.beckmann_deviation),
+           fmt::format("over slopes up to {:g} α it is {:.3g} α for GGX. It grows as steeper "
+                       "slopes are counted.",
                        last.most, last.deviation));
 }
 

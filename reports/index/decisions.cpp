@@ -76,10 +76,10 @@ std::string cost_text(const Candidate& taken, const Candidate& cheap) {
   if (!d.survives) return "none measured";
   return (d.ns < 0 ? "−" : "+") + ns_text(d.ns);
 }
-/// What to take instead where time is what lacks, what that saves and what it leaves.
-std::string cheaper_text(const Candidate& cheaper, const Candidate& taken, std::string_view left) {
-  return fmt::format("time is short: then {}, {}; it saves {}", name_of_form(cheaper.form), left,
-                     ns_text(more(cheaper, taken).ns));
+/// What to take instead where time is what lacks, what it leaves and what that saves.
+std::string cheaper_text(const Candidate& cheaper, std::string_view left, double saved_ns) {
+  return fmt::format("time is short: then {}, which leaves {} and saves {}",
+                     name_of_form(cheaper.form), left, ns_text(saved_ns));
 }
 /// Aside on the cost, where both stand in a whole model, composed of its terms: what is left of it where memory is the limit, if not
 /// every process found it.
@@ -92,14 +92,6 @@ std::string streaming_aside(const Facts& f, std::string_view taken, std::string_
   return fmt::format(" ({}{:.2f} ± {:.2f} ns in a whole model that reads its inputs from memory)",
                      d.ns < 0 ? "−" : "+", std::abs(d.ns), d.spread_ns);
 }
-/// Aside on what is saved: how much of it is left in a whole model in cache.
-std::string saved_aside(const Facts& f, std::string_view taken, std::string_view cheaper) {
-  const auto *a = time_of(f.whole, taken), *b = time_of(f.whole, cheaper);
-  if (!a || !b) return {};
-  const auto d = more(*b, *a);
-  return fmt::format(", in a whole model {:.2f} ± {:.2f} ns", d.ns, d.spread_ns);
-}
-
 // --- Masking ---
 
 void masking(std::vector<Decision>& to, const Facts& f) {
@@ -115,15 +107,31 @@ void masking(std::vector<Decision>& to, const Facts& f) {
     return to_text(model_of_lobe("ggx", short_id(form), "schlick"));
   };
   const auto cost = cost_text(*taken, *cheap);
-  const auto* other = nearest_cheaper(all, *taken);
+  // What saves nothing in a whole model is worth no error.
+  const auto saved = [&](const Candidate& c) -> std::optional<TimeDifference> {
+    const auto *a = time_of(f.whole, model(taken->form)), *b = time_of(f.whole, model(c.form));
+    if (!a || !b) return {};
+    return more(*b, *a);
+  };
+  Candidates worth = all;
+  if (std::ranges::any_of(all,
+                          [&](const Candidate& c) { return c.form != taken->form && saved(c); }))
+    std::erase_if(worth, [&](const Candidate& c) {
+      const auto d = saved(c);
+      return !d || !d->survives || d->ns <= 0;
+    });
+  std::string unless;
+  if (const auto* other = nearest_cheaper(worth, *taken)) {
+    const auto whole = saved(*other);
+    unless = cheaper_text(*other, rms(*other), whole ? whole->ns : more(*other, *taken).ns) +
+             (whole ? " in a whole model" : "");
+  }
   to.push_back({"Masking", name_of_form(taken->form), taken->form,
                 is_exact(*taken) ? fmt::format("none (Schlick's k: {})", rms(*cheap)) : rms(*taken),
                 cost.starts_with('+')
                     ? cost + streaming_aside(f, model(taken->form), model(cheap->form))
                     : cost,
-                other ? cheaper_text(*other, *taken, rms(*other)) +
-                            saved_aside(f, model(taken->form), model(other->form))
-                      : ""});
+                unless});
 }
 
 // --- Distribution ---
@@ -265,7 +273,7 @@ void fresnel_of(std::vector<Decision>& to,
     if (is_clearly_cheaper(*cheap, *taken))
       d.unless = head_on <= just_seen
                      ? "it is seen only head on: then Schlick, " + delta_at_most(head_on)
-                     : cheaper_text(*cheap, *taken, delta_at_most(cheap->error));
+                     : cheaper_text(*cheap, delta_at_most(cheap->error), more(*cheap, *taken).ns);
   }
   if (d.cost.starts_with('+'))
     d.cost += streaming_aside(f, fmt::format("ggx/smith_ggx.correlated/{}", short_id(d.take_id)),
@@ -305,11 +313,11 @@ std::optional<double> seen_from(const Facts::Scattering& s) {
   return {};
 }
 
-/// Greatest ΔE2000 of a form at roughnesses below one.
-double most_below(const Facts::Scattering& way, double roughness) {
+/// Greatest ΔE2000 of a form at roughnesses from one on and below another.
+double most_between(const Facts::Scattering& way, double from, double to) {
   double most = 0;
   for (std::size_t i = 0; i < way.roughness.size(); ++i)
-    if (way.roughness[i] < roughness) most = std::max(most, way.delta_e[i]);
+    if (way.roughness[i] >= from && way.roughness[i] < to) most = std::max(most, way.delta_e[i]);
   return most;
 }
 /// Compensation from a roughness on, below which nothing is done: where it shows and is nearer than nothing.  No value where what it
@@ -325,32 +333,34 @@ std::optional<Compensated> compensated(const Facts::Scattering& way,
   const auto nearer = nearer_from(way, nothing), seen = seen_from(nothing);
   if (!nearer || !seen) return {};
   Compensated c{std::max(*nearer, *seen), 0, 0};
-  c.below = most_below(nothing, c.from);
-  for (std::size_t i = 0; i < way.roughness.size(); ++i)
-    if (!(way.roughness[i] < c.from)) c.error = std::max(c.error, way.delta_e[i]);
+  c.below = most_between(nothing, 0, c.from);
+  c.error = most_between(way, c.from, HUGE_VAL);
   if (std::ranges::max(nothing.delta_e) - c.both() < just_seen) return {};
   return c;
 }
 
-/// The form for surfaces smoother than those that a compensation is used on: another compensation, or one bounce.
+/// What is done below the roughness where a compensation begins.
 struct Below {
-  const Facts::Compensation* form = nullptr;  ///< null: one bounce
-  double error;                               ///< greatest ΔE2000
+  const Facts::Compensation* form = nullptr;  ///< from a lower roughness on; null: one bounce
+  double from, error;                         ///< that roughness; greatest ΔE2000 of it all
 };
-/// Returns the form other than `taken` that leaves least there; one bounce, if nobody sees what it leaves or what another gains.
+/// Returns the other compensation that begins earlier and leaves least; one bounce, if nobody sees what it leaves or what another
+/// gains.
 Below nearest_below(const Facts& f,
                     std::string_view taken,
-                    double f0,
-                    bool of_image_light,
+                    const Facts::Scattering& nothing,
                     const Compensated& pays) {
-  Below best{nullptr, pays.below};
+  Below best{nullptr, 0, pays.below};
   if (!(pays.below > side_by_side)) return best;
   double least = pays.below - just_seen;
-  for (const auto& c : f.compensations)
-    if (const auto* way = scattering_of(f, c.id, f0, of_image_light);
-        way && c.id != taken && c.of_image_light == of_image_light &&
-        most_below(*way, pays.from) < least)
-      best = {&c, least = most_below(*way, pays.from)};
+  for (const auto& c : f.compensations) {
+    const auto* way = scattering_of(f, c.id, nothing.f0, nothing.of_image_light);
+    if (!way || c.id == taken || c.of_image_light != nothing.of_image_light) continue;
+    const auto own = compensated(*way, nothing);
+    if (!own || !(own->from < pays.from)) continue;
+    const double error = std::max(own->below, most_between(*way, own->from, pays.from));
+    if (error < least) best = {&c, own->from, least = error};
+  }
   return best;
 }
 
@@ -382,23 +392,25 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     const auto& pays = used.at(taken->form);
-    const auto below = nearest_below(f, taken->form, f0, of_image_light, pays);
-    d.take = fmt::format("{} from roughness {:g} on, {} below", name_of_form(taken->form),
-                         pays.from, below.form ? name_of_form(below.form->id) : "one bounce");
-    d.error = fmt::format("{} at every roughness (one bounce: {})",
-                          delta_at_most(std::max(pays.error, below.error)), at_most(without));
-    d.cost = fmt::format(
-        "{}{} instead of {}, one call at a time (not comparable with other rows)",
-        ns_text(costs->without_ns + taken->ns),
-        below.form ? fmt::format(", or {} below roughness {:g},",
-                                 ns_text(below.form->without_ns + below.form->ns), pays.from)
-                   : "",
-        ns_text(costs->without_ns));
+    const auto below = nearest_below(f, taken->form, *nothing, pays);
+    d.take = fmt::format(
+        "{} from roughness {:g} on, {}one bounce below", name_of_form(taken->form), pays.from,
+        below.form ? fmt::format("{} between {:g} and {:g}, ", name_of_form(below.form->id),
+                                 below.from, pays.from)
+                   : "");
+    d.error = fmt::format("{} (one bounce: {})", delta_at_most(std::max(pays.error, below.error)),
+                          at_most(without));
+    d.cost = fmt::format("{} {}{} (one bounce: {})", name_of_form(taken->form),
+                         ns_text(costs->without_ns + taken->ns),
+                         below.form ? fmt::format(", {} {}", name_of_form(below.form->id),
+                                                  ns_text(below.form->without_ns + below.form->ns))
+                                    : "",
+                         ns_text(costs->without_ns));
   }
   if (other && other->form != single)
-    d.unless = fmt::format("time is short: then {} from roughness {:g} on, {} at every roughness",
-                           name_of_form(other->form), used.at(other->form).from,
-                           delta_at_most(other->error));
+    d.unless =
+        fmt::format("time is short: then {} from roughness {:g} on, {}", name_of_form(other->form),
+                    used.at(other->form).from, delta_at_most(other->error));
   to.push_back(std::move(d));
 }
 
@@ -414,7 +426,7 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
        s.head_on && s.from_side ? fmt::format("mean ΔE {} head on, {} at 60°", at_most(*s.head_on),
                                               at_most(*s.from_side))
                                 : fmt::format("RMS {:.1g} of E", s.rms),
-       s.ns ? fmt::format("{} a pixel, in all", ns_text(*s.ns)) : "one look-up",
+       s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
        s.grazing ? fmt::format(
                        "the rim matters (mean ΔE {} at cosine 0.1): then integrate over directions",
                        at_most(*s.grazing))
@@ -457,15 +469,14 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
              cost_text(*taken, cheap),
              ""};
   if (taken->form != cheap_id && own)
-    d.error += below_lobe
-                   ? fmt::format("; with the lobe it reflects up to {} of the light (Lambert: {})",
-                                 made(*form_of(taken->form)), made(*lambert))
-                   : fmt::format(" (Lambert: {})", delta_at_most(*own));
+    d.error = below_lobe ? fmt::format("{}; up to {} of the light reflected (Lambert: {})", d.error,
+                                       made(*form_of(taken->form)), made(*lambert))
+                         : fmt::format("{} (Lambert: {})", d.error, delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("you accept that up to {} of the light is reflected: then “{}”, {}",
-                           made(*form_of(nearer->form)), in_text(nearer->form),
-                           delta_at_most(nearer->error));
+    d.unless = fmt::format("energy does not matter: then “{}” ({}; up to {} of the light)",
+                           in_text(nearer->form), delta_at_most(nearer->error),
+                           made(*form_of(nearer->form)));
   to.push_back(std::move(d));
 }
 
@@ -493,11 +504,11 @@ void precision(std::vector<Decision>& to, const Facts& f) {
     return;
   }
   to.push_back(
-      {fmt::format("Precision: D V F NoL of GGX in half (F0 of {:g} or more)", half->least_f0),
+      {fmt::format("Precision: a GGX highlight in half (F0 of {:g} or more)", half->least_f0),
        fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
        "ndf.ggx",
        fmt::format(
-           "≤ {} as far as a search found (with the cosines in half, too, at angles up to {:.0f}°)",
+           "≤ {}, the worst that a search found (cosines in half, too; angles up to {:.0f}°)",
            percent(half->tolerance, 2), half->zenith_deg),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),

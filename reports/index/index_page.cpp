@@ -10,6 +10,7 @@
 #include "reports/page/numbers.h"
 #include "reports/page/render.h"
 #include "reports/picture/document.h"
+#include "reports/picture/front.h"
 
 #include <fmt/chrono.h>
 #include <fmt/format.h>
@@ -63,6 +64,29 @@ std::vector<Facts::Fresnel> fresnel_grid(const ReportIndex& index) {
   for (const auto form : shown_forms)
     for (const auto& f : index.facts.fresnel)
       if (f.form == form) out.push_back(f);
+  return out;
+}
+
+/// Masking's accuracy against its time, by what the decision on masking reads; empty where no report has both.
+Pictures masking_front(const Facts& facts) {
+  std::vector<FrontDot> dots;
+  std::vector<TimedError> places;
+  for (const auto& m : facts.masking)
+    if (const auto* t = time_of(facts.in_cache, m.form)) {
+      places.push_back({{t->ns, t->spread}, m.rms, t->each});
+      dots.push_back({name_of_form(m.form), places.back()});
+    }
+  if (dots.empty()) return {};
+  for (std::size_t i = 0; i < dots.size(); ++i) dots[i].front = front_place(places, i).on_line;
+  auto f = make_figure("masking");
+  f.title = "Masking: time against error";
+  f.x = {"time of one sample [ns]", true};
+  f.y.label = "RMS error of G₂";
+  f.y.from = -0.02;  // the exact form's point is seen whole
+  f.curves = {front_points("masking forms for GGX", dots)};
+  if (auto line = front_line("best trade-offs", dots)) f.curves.push_back(std::move(*line));
+  Pictures out;
+  out.figures = {std::move(f)};
   return out;
 }
 
@@ -139,7 +163,7 @@ inline constexpr auto description<ReportIndex> = FieldList{
           "thresholds"},
     Field{"fresnel", [](const ReportIndex& i) { return i.facts.fresnel; },
           "every form by material; the page shows the usual ones"},
-    Field{"front", [](const ReportIndex& i) { return figures_json(i.front); },
+    Field{"front", [](const ReportIndex& i) { return figures_json(masking_front(i.facts)); },
           "masking's accuracy against time"},
     Field{"reports", &ReportIndex::reports, ""},
     Field{"claims", claims_of, ""}};
@@ -152,22 +176,6 @@ void add_report(
       name, what, ms, std::move(r.findings), figures.size() + r.pictures.maps.size(), {}};
   if (!figures.empty()) entry.first.figures.push_back(figures[0]);
   to.reports.push_back(std::move(entry));
-  if (!r.facts.setting) return;
-  const auto id = picture_id(
-      "masking", {{"number", "float"}, {"set", r.facts.setting->isa}, {"memory", "cache"}});
-  const auto at = std::ranges::find(figures, id, &Figure::id);
-  if (at == figures.end()) return;
-  Figure front = *at;
-  // Its first series and that one's front: the forms that stand for GGX.
-  front.curves.resize(std::min<std::size_t>(front.curves.size(), 2));
-  if (front.curves.size() == 2 && !front.curves[1].dashed) front.curves.pop_back();
-  front.note.clear();
-  front.y.label = "RMS error of G₂";
-  front.y.log = false;
-  front.y.from = -0.02;  // the exact form is off by rounding only: decades below the others
-  front.curves[0].name = "masking forms for GGX";
-  if (front.curves.size() == 2) front.curves[1].name = "best trade-offs";
-  to.front.figures = {std::move(front)};
 }
 
 std::string to_json(const ReportIndex& index) {
@@ -208,28 +216,23 @@ Cell with_aside(const std::string& broken, std::string look = {}, std::string ti
       std::move(look)};
 }
 
-/// The time of the same highlight as rows call it "a whole model".
-std::string composed_time(const Facts& f) {
-  const auto* composed = time_of(f.whole, "ggx/smith_ggx.correlated/schlick");
-  return composed
-             ? fmt::format(", and {} ns composed of its terms, which “a whole model” stands for",
-                           significant(composed->ns, 2))
-             : "";
-}
 /// A quick report times everything in one process.
 bool is_timed_in_several_processes(const Facts& f) {
   return std::ranges::any_of(f.in_cache, [](const Facts::Time& t) { return t.each.size() > 1; });
 }
 std::vector<Part> lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
-  std::string cost = "CPU time of one evaluation in float beyond the usual form";
+  std::string cost = "How much longer one evaluation takes than with the usual form";
   if (m)
-    cost += fmt::format(", on {} with {}, from cache", m->cpu.empty() ? "this machine" : m->cpu,
-                        m->isa);
+    cost += fmt::format(", in float, from cache, on {} with {}",
+                        m->cpu.empty() ? "this machine" : m->cpu, m->isa);
   cost += ".";
-  if (m && m->model_ns)
-    cost += fmt::format(" A whole GGX highlight takes {} ns as one function{}.",
-                        significant(*m->model_ns, 2), composed_time(i.facts));
+  if (const auto* whole = time_of(i.facts.whole, "ggx/smith_ggx.correlated/schlick"))
+    cost += fmt::format(" A whole model, GGX composed of its terms, takes {} ns.",
+                        significant(whole->ns, 2));
+  cost +=
+      " Multiple scattering and the split sum have their whole times, which do not compare with "
+      "other rows.";
   if (m && m->others && *m->others >= 0.25)
     cost += fmt::format(
         " The machine was busy: other programs took {} of {} processors, so times may be too long.",
@@ -328,18 +331,18 @@ Section claims(const ReportIndex& i) {
   for (const auto& [report, c] : claims_of(i)) {
     using enum Claim::Judged;
     rows += fmt::format(
-        R"(<tr><th scope="row"><span class="verdict-{}">{}</span></th><td><details><summary>“{}”</summary><p>{}</p><p>{}<a href="{}">the report</a></p></details></td><td>{}</td></tr>)",
+        R"(<tr><th scope="row"><span class="verdict-{}">{}</span></th><td title="{}">“<a href="{}">{}</a>”</td><td>{}</td></tr>)",
         c->judged == holds    ? "yes"
         : c->judged == partly ? "weakly"
                               : "no",
-        name_of(c->judged), markup_text(c->claim), markup_text(capital(c->verdict)),
-        c->source.empty() ? "" : markup_text(c->source) + " · ",
-        markup_text(page_of(report, c->anchor)), markup_text(c->figure));
+        name_of(c->judged), markup_text(c->source), markup_text(page_of(report, c->anchor)),
+        markup_text(c->claim), markup_text(c->figure));
   }
   if (rows.empty()) return {};
   return {
       "Claims",
-      "Claims in circulation among people who write shaders. A click shows what was tested.",
+      "Claims in circulation among people who write shaders. Each leads to the report that tests "
+      "it.",
       {Markup{
           R"(<div class="told-by-cell said"><table><thead><tr><th>verdict</th><th>claim</th><th>figure</th></tr></thead><tbody>)" +
           rows + "</tbody></table></div>"}}};
@@ -355,21 +358,16 @@ std::string index_page_html(const ReportIndex& i) {
   Page out{"", "", "Which shortcuts can you ship?", "Which shortcuts can you ship?"};
   out.first = lead(i);
   out.sections = {what_to_ship(i), fresnel(i)};
-  if (!i.front.figures.empty())
+  const auto front = masking_front(i.facts);
+  if (!front.figures.empty())
     out.sections.push_back(
         {"What masking's accuracy costs",
          std::string("The error of G₂ against height-correlated Smith, over the time of one "
-                     "sample. The dashed line joins the best trade-offs. ") +
+                     "sample. The dashed line joins the forms that no other beats in both. ") +
              (is_timed_in_several_processes(i.facts)
-                  ? "Forms are timed in several processes: a form is left off the line if a more "
-                    "exact form was as fast in any of them. Bars hold the middle half of the "
-                    "processes. "
-                  : "A form is left off the line if a more exact form is as fast within both "
-                    "spreads. Bars are spreads in one process. ") +
-             "If two forms are equally exact, the faster is on the line. Hammon's way to write "
-             "Unreal's joint form is a point of its own. The RMS error is over other directions "
-             "than that of the masking row.",
-         {page::Shown{i.front.figures[0].family, {}, 480}},
+                  ? "Bars hold the middle half of several processes."
+                  : "Bars are spreads in one process."),
+         {page::Shown{front.figures[0].family, {}, 480}},
          "time"});
   out.sections.push_back(cards(i));
   out.sections.push_back(claims(i));
@@ -379,10 +377,9 @@ std::string index_page_html(const ReportIndex& i) {
        {Pairs{
            {{"Choice",
              {fmt::format(
-                 "The cheapest form with a small error: up to ΔE2000 {}, or an RMS error of {} in "
-                 "G₂. If none is that near, the nearest. If several with a small error take the "
-                 "same time, the usual one, or else the nearest. GGX and the split sum are what "
-                 "people ship: no threshold judges them.",
+                 "The table takes the cheapest form with a small error: up to ΔE2000 {}, or an RMS "
+                 "error of {} in G₂. If no form has a small error, it takes the one with the least "
+                 "error. If several are as cheap, it takes the usual one.",
                  plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
@@ -392,49 +389,50 @@ std::string index_page_html(const ReportIndex& i) {
               "D65. A metal's true colour is that of its spectrum. Forms at three wavelengths use "
               "650, 550 and 450 nm."}},
             {"Multiple scattering",
-             {"Under Schlick's Fresnel, at cosines of 0.1 or more. For image-based light the "
-              "reference is the transport of light between facets under even light. For single "
-              "lights it is random walks on a ball, lit from 30° and from 120° to the view, and ΔE "
-              "includes the walks' error. Under image-based light only Fdez-Agüera's compensation "
-              "is compared, which was made for the split sum."}},
-            {"Where compensation begins",
              {fmt::format(
-                 "At the least roughness where one bounce is off by more than ΔE {0} and "
-                 "compensation is nearer there and at all greater roughnesses, under the worse of "
-                 "the lights. Under single lights it has to be nearer by more than twice the "
-                 "walks' error. Compensation is taken only if it lowers the greatest ΔE2000 by {1} "
-                 "or more. Below that roughness one bounce is used. If it is off by more than ΔE "
-                 "{0} there and another compensation by at least {1} less, that compensation is "
-                 "used.",
+                 "Fresnel is Schlick's, and cosines are 0.1 or more. Compensation begins at the "
+                 "roughness where one bounce is off by more than ΔE {}, and compensation is nearer "
+                 "from there on. It is used if it gains ΔE {} or more.",
                  plain(side_by_side), plain(just_seen))}},
-            {"Split sum", {"The exposure gives a white ball half of the display's white."}},
+            {"Single lights",
+             {"A ball is lit from 30° and from 120° to the view. The reference is random walks of "
+              "light. Their error is added to ΔE, and a form is nearer by more than twice it."}},
+            {"Image-based light",
+             {"The light is even. The reference is the transport of light between facets. Only "
+              "Fdez-Agüera's compensation is compared: it was made for the split sum."}},
+            {"Split sum",
+             {"It is listed because engines ship it: no threshold judges it. The exposure gives a "
+              "white ball half of the display's white."}},
             {"Diffuse",
              {fmt::format(
                  "Colours are those of a ball, where the cosines of light and view are {:g} or "
-                 "more; reflected light is computed from cosine {:g} on. A form that reflects "
+                 "more. Reflected light is computed from cosine {:g} on. A form that reflects "
                  "more than {} of the light is left out. If all do, the one that reflects least "
                  "is taken.",
                  least_colour_cosine, least_diffuse_cosine, page::percent(no_light_made, 4))}},
             {"≤",
-             {"The greatest value at the roughnesses, views and points that were computed. "
-              "Between them it may be more, most so under single lights."}},
+             {"The greatest value that was computed. Between the roughnesses, views and points "
+              "that were computed it may be larger."}},
             {"Times",
              {std::string(is_timed_in_several_processes(i.facts)
-                              ? "Medians over several processes. Both forms of a cost are timed in "
-                                "each process, and the cost is the median of their differences. It "
-                                "counts if every process found the same sign, and if it is larger "
-                                "than the spread and than 3 % of the time taken. "
+                              ? "Both forms of a cost are timed in several processes. The cost is "
+                                "the median of their differences. It counts if it has the same "
+                                "sign in every process and is larger than the spread and than 3 % "
+                                "of the time. "
                               : "Medians in one process, as --quick asks. A cost "
                                 "counts if it is larger than both spreads together. ") +
-              "Compensations are timed in one process, one light and view at a time." +
-              (i.facts.tails ? " The distribution row times whole highlights." : "")}}}}},
+              (is_timed_in_several_processes(i.facts) ? "Compensations are timed in one process."
+                                                      : "") +
+              (i.facts.tails
+                   ? " The distribution row times whole highlights; no threshold judges it."
+                   : "")}}}}},
        "about"});
   const std::time_t at = i.at_ms / 1000;
   out.setting = fmt::format(
       "gonio {}, {} setting, made {:%Y-%m-%d %H:%M} UTC. All rows of this page are in index.json "
       "beside it.",
       i.version, setting_of(i), fmt::gmtime(at));
-  return page_html(out, i.front);
+  return page_html(out, front);
 }
 
 }  // namespace gonio

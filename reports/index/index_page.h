@@ -25,7 +25,6 @@ struct ReportIndex {
   bool full = false;
   std::int64_t at_ms = 0;  ///< when, since 1970
   Facts facts{};           ///< of all reports
-  Pictures front{};        ///< masking's accuracy against its time; empty where no report has it
   bool quick = false;      ///< a first look
 };
 /// Adds a report with what the index shows of it.

@@ -291,8 +291,7 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
           "Values are written to the second digit of their standard error. Standard errors: "
           "{}.{}{}",
           d.intervals,
-          d.misfit.told ? " They take the residuals for random scatter; the misfit widens the "
-                          "intervals further."
+          d.misfit.told ? " They count random scatter only; the intervals also count the misfit."
                         : "",
           d.clusters > 0 ? fmt::format(" Incident angles: {}.", count_text(d.clusters)) : ""),
       {std::move(t)}};

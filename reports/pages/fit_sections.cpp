@@ -457,8 +457,7 @@ Section solver(const FitDocument& d, Pictures& pictures) {
              {"robust loss", words(d.robust)}}});
   return {"How the solver got there",
           s.iterations == 0 && s.termination == "converged"
-              ? "The search for starting values already ended in this minimum: the solver changed "
-                "nothing."
+              ? "The starting values were already at this minimum: the solver changed nothing."
               : s.message,
           {std::move(beside)}};
 }

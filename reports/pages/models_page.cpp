@@ -529,10 +529,7 @@ std::string ModelsSections::html() {
            {"at the end of its range",
             "said of a parameter that the data push beyond what it may be: the model lacks "
             "something"},
-           {"front",
-            "models that no other beats in both speed and nearness; two times count as equal if "
-            "they "
-            "vary by more than their difference"}}}},
+           {"front", "models that no other beats in both speed and nearness"}}}},
       "words"};
   out.sections = {std::move(front), models(),
                   std::move(drawn), spheres_section(spheres(), "", at_once),

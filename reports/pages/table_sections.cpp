@@ -304,7 +304,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
                             significant(h.largest)));
   fact("noise floor", h.noise_floor > 0
                           ? significant(h.noise_floor) + " 1/sr, from the negative values"
-                          : "none estimated: too few negative values");
+                          : "unknown (estimated from negative values: too few)");
   if (h.reciprocity_error)
     fact("reciprocity", fmt::format("{}: change when light and view are exchanged{}{}",
                                     percent(*h.reciprocity_error),
@@ -360,7 +360,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
   }
   return {"What the table can be trusted for",
           fmt::format("These figures need no fit.{}{}",
-                      part ? " They are of the samples that the mask leaves." : "",
+                      part ? " They do not count samples that the mask leaves out." : "",
                       h.albedo.empty() ? ""
                                        : " Coverage is the share of the cosine-weighted hemisphere "
                                          "near valid samples."),

@@ -16,9 +16,8 @@ FrontPlace front_place(std::span<const TimedError> rivals, std::size_t form) {
     const auto faster = difference({other.time, other.each}, {own.time, own.each});
     if (faster.survives && faster.ns > 0) place.front = false;
     place.tie |= !faster.survives;
-    const bool better =
-        other.error < own.error * (1 - same) || other.time.ns < own.time.ns;  // as it is drawn
-    place.on_line &= !better || (faster.survives && faster.ns < 0);
+    const bool is_as_exact = other.error >= own.error * (1 - same);
+    place.on_line &= other.time.ns > own.time.ns || (is_as_exact && other.time.ns == own.time.ns);
   }
   return place;
 }

@@ -26,7 +26,8 @@ struct FrontPlace {
   bool front = true;
   /// The time of a rival that is at least as exact differs by nothing that survives: another run may mark the one or the other.
   bool tie = false;
-  /// The line through the front goes through it: it ties with none that is more exact, nor with one as exact that took less here.
+  /// The line through the front goes through it: no rival that is at least as exact took less time here, none that is more exact as
+  /// little.  A reader of the picture sees this, whatever the spreads.
   bool on_line = true;
 };
 /// \param rivals  the form itself among them

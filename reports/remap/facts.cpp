@@ -11,6 +11,10 @@ Facts facts(const RemapRows& r) {
   for (const auto& form : r.forms)
     if (const auto rms = overall_rms(r, form.form, reference))
       f.masking.push_back({form.form, *rms});
+  // Several are the same values in other words: the one of fewer operations comes first.
+  std::ranges::stable_sort(f.masking, {}, [&](const Facts::Masking& m) {
+    return find_form(r.forms, m.form)->operations;
+  });
   return f;
 }
 

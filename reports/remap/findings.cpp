@@ -48,10 +48,10 @@ void nearest_form(Findings& to, const RemapRows& r) {
   if (!nearest) return;
   const auto off = overall_rms(r, form_id::direct_k, form_id::smith);
   to.headline = fmt::format(
-      "{} is the cheap masking nearest to height-correlated Smith: its G₂ is "
-      "off by {:.2g}, RMS over directions and roughness{}.",
+      "{} is the cheap masking nearest to height-correlated Smith: its RMS error in G₂ is "
+      "{:.2g}{}.",
       name_of_form(nearest->form), least,
-      off ? fmt::format("; that of Schlick's k = (r+1)²/8 by {:.2g}", *off) : "");
+      off ? fmt::format(", that of Schlick's k = (r+1)²/8 is {:.2g}", *off) : "");
   to.say(to.headline);
   if (smith)
     to.say(
@@ -80,16 +80,15 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
              others = rows_of(r, form_id::image_k, form_id::smith);
   if (ours.empty() || others.empty()) return;
   const auto d = duel(ours, others);
-  to.judge(
-      "k = (r+1)²/8 is right for direct light, r²/2 for image-based", "",
-      verdict(d.nearer >= d.all, 2 * d.nearer >= d.all),
-      fmt::format("G₂ off by {:.2g} with (r+1)²/8, {:.2g} with r²/2, RMS",
-                  *overall_rms(r, form_id::direct_k, form_id::smith),
-                  *overall_rms(r, form_id::image_k, form_id::smith)),
-      fmt::format(
-          "Smith's masking is the same for all light. (r+1)²/8 is nearer to it than r²/2 at {} "
-          "roughnesses.",
-          of_all(d.nearer, d.all)));
+  to.judge("k = (r+1)²/8 is right for direct light, r²/2 for image-based", "",
+           verdict(d.nearer >= d.all, 2 * d.nearer >= d.all),
+           fmt::format("RMS error of G₂: {:.2g} with (r+1)²/8, {:.2g} with r²/2",
+                       *overall_rms(r, form_id::direct_k, form_id::smith),
+                       *overall_rms(r, form_id::image_k, form_id::smith)),
+           fmt::format("Smith's masking is the same for all light. (r+1)²/8 is nearer to it than "
+                       "r²/2 at {} of {} "
+                       "roughnesses.",
+                       d.nearer, d.all));
   for (const double at : {0.1, 0.3})
     if (const auto* a = row_at(ours, at))
       to.say(fmt::format(
@@ -129,22 +128,27 @@ void wrong_place(Findings& to, const RemapRows& r) {
                       k, beside(use->value / use->correlated), of, rough, mu));
 }
 
+/// "13 % darker"
+std::string darker(double ratio) {
+  return fmt::format("{} {}", percent(std::abs(ratio - 1), 2), ratio < 1 ? "darker" : "brighter");
+}
+
 /// 'k = α/2 is too bright at grazing angles', and what is taken in its place.
 void verdict_on_g1(Findings& to, const RemapRows& r) {
   if (r.g1.size() < 2) return;
   const auto &half = r.g1[0], &remapped = r.g1[1];
-  to.judge("k = α/2 is too bright at grazing angles", "", verdict(half.value > half.smith),
-           fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", half.value, half.smith, half.nov),
-           fmt::format("at roughness {:g} it lets through {} than exact Smith.", half.roughness,
-                       beside(half.value / half.smith)));
+  to.judge(
+      "k = α/2 is too bright at grazing angles", "", verdict(half.value > half.smith),
+      fmt::format("{} than exact Smith at NoV {:g}", darker(half.value / half.smith), half.nov),
+      fmt::format("at roughness {:g} G1 is {:.3f}, exactly {:.3f}.", half.roughness, half.value,
+                  half.smith));
   to.judge("with k = (r+1)²/8 the edge is 72 % darker, like that of a medium roughness", "",
            verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith,
                    std::abs(1 - remapped.value - 0.72) < 0.005),
-           fmt::format("G1 {:.3f}, exact {:.3f} at NoV {:g}", remapped.value, remapped.smith,
-                       remapped.nov),
-           fmt::format("this k darkens the edge by {}, exact Smith of roughness {:.2g} by {}.",
-                       percent(1 - remapped.value, 2), remapped.roughness,
-                       percent(1 - remapped.smith, 2)));
+           fmt::format("{} darker at NoV {:g}, by exact Smith {}", percent(1 - remapped.value, 2),
+                       remapped.nov, percent(1 - remapped.smith, 2)),
+           fmt::format("at roughness {:.2g} G1 is {:.3f}, exactly {:.3f}.", remapped.roughness,
+                       remapped.value, remapped.smith));
 }
 
 /// Largest factor, up or down, by which a ratio that is so many times as large is off.
@@ -165,9 +169,9 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
   }
   if (most == 0) return;
   to.judge("F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
-           fmt::format("off by a factor of up to {}; with a ¼ by up to {}", rounded_up(most),
+           fmt::format("off by a factor of up to {}; with a ¼, up to {}", rounded_up(most),
                        rounded_up(with_it)),
-           "tested in the mirror direction of glass. Unity's own form has the ¼.");
+           "tested on glass, in the mirror direction. Unity's own form has the ¼.");
 }
 
 }  // namespace

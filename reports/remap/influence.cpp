@@ -29,15 +29,14 @@ void judge_influence_of_masking(Findings& to, const RemapRows& r) {
       else if (more > beyond)
         beyond = more, roughness = none->at[i].roughness, mu = r.mu[m];
     }
-  to.judge(
-      "except at grazing angles and high roughness, G matters little", "", verdict_on_small(within),
-      fmt::format("up to {} more light without it, at cosines of {:g} or more and roughness up to "
-                  "{:g}",
-                  percent_at_most(within), least_mu, most_roughness),
-      fmt::format("the distribution is GGX. At cosine {:g} and roughness {:g} it is {}.", mu,
-                  roughness,
-                  beyond > 10 ? fmt::format("{:.0f} times as much", 1 + beyond)
-                              : percent_at_most(beyond) + " more"));
+  to.judge("except at grazing angles and high roughness, G matters little", "",
+           verdict_on_small(within),
+           fmt::format("GGX without G reflects up to {} more light", percent_at_most(within)),
+           fmt::format("for cosines of {:g} or more and roughness up to {:g}. At cosine {:g} and "
+                       "roughness {:g} GGX without G reflects {}.",
+                       least_mu, most_roughness, mu, roughness,
+                       beyond > 10 ? fmt::format("{:.0f} times as much", 1 + beyond)
+                                   : percent_at_most(beyond) + " more"));
 }
 
 }  // namespace gonio

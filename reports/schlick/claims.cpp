@@ -58,10 +58,10 @@ void smaller_than_others(Findings& to, const SchlickRows& r) {
   to.judge("Schlick's error is significantly less than that of other factors",
            "Burley 2012, Physically-Based Shading at Disney",
            verdict(smaller[0] == all[0] && smaller[1] == all[1], smaller[0] + smaller[1] > 0),
-           fmt::format("glass ΔE2000 {} against {} of masking",
+           fmt::format("glass: ΔE2000 {} by Schlick, {} by masking",
                        rounded_up(shown_by_schlick(r, "IOR 1.5")), rounded_up(glass->delta_e)),
-           fmt::format("The other factor is Unreal's joint masking. Schlick's error is less than "
-                       "half of the masking's for {} metals and {} of the dielectrics.",
+           fmt::format("The other factor is Unreal's joint masking. For {} metals and {} of the "
+                       "dielectrics, Schlick's error is less than half of that masking's.",
                        of_all(smaller[1], all[1]), number_or_none(smaller[0])));
 }
 
@@ -76,16 +76,17 @@ void means_metal(Findings& to) {
   if (above.empty()) return;
   const auto most = std::ranges::max_element(above, {}, &Value::f0);
   to.judge("F0 above 0.04 means metal", "", verdict(false),
-           fmt::format("{} has F0 {:.2f}", most->name, most->f0),
-           fmt::format("{} measured dielectrics have more, at 550 nm.",
+           fmt::format("{}: F0 {:.2f}", most->name, most->f0),
+           fmt::format("{} measured dielectrics are above 0.04. F0 is that at 550 nm.",
                        of_all(above.size(), dielectrics().size())));
 }
 
 void colour_beside_f(Findings& to) {
   const double glass = dielectric(1.5, "glass").f0(0), twice = glass * glass;
   to.judge("f = D F G/(4 NoL NoV) · NoL · SpecularColor", "", verdict(false),
-           fmt::format("glass reflects {} in place of {}", percent(twice, 2), percent(glass, 2)),
-           "F holds the specular colour already. Glass is seen head on.");
+           fmt::format("glass, seen head on, reflects {} instead of {}", percent(twice, 2),
+                       percent(glass, 2)),
+           "F is the specular colour already.");
 }
 
 }  // namespace

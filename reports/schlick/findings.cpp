@@ -66,7 +66,7 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
       "Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
       fmt::format("glass: up to {} of full light, {} of F", rounded_up(g->max_abs),
                   percent_at_most(g->max_rel)),
-      fmt::format("{} IORs of dielectrics and channels of metals stay within 0.01 at all angles.",
+      fmt::format("{} IORs of dielectrics and channels of metals are within 0.01 at all angles.",
                   of_all(some, all)));
 }
 
@@ -80,8 +80,8 @@ void only_near_one(Findings& to, const SchlickRows& r) {
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
   to.judge("Schlick is accurate enough; near a relative IOR of 1 its error is larger",
            "Disney, SIGGRAPH 2015", verdict(only, near),
-           fmt::format("up to {} at IOR {:g}, {} for {}", rounded_up(low.max_abs), index(low),
-                       rounded_up(metal->max_abs), metal->material),
+           fmt::format("off by up to {} at IOR {:g}, {} for {}", rounded_up(low.max_abs),
+                       index(low), rounded_up(metal->max_abs), metal->material),
            fmt::format("from IOR {:g} on the error grows again, to {} at IOR {:g}.", index(*best),
                        rounded_up(high.max_abs), index(high)));
 }
@@ -149,13 +149,8 @@ void variants(Findings& to, const SchlickRows& r) {
                      rounded_up(apart, 1)));
 }
 
-/// Where a view is.
-std::string seen_at(double mu) {
-  return mu == 1 ? "head on" : mu < 0.2 ? "at grazing angles" : "from the side";
-}
-
 struct Seen {
-  double delta_e = 0, mu = 1;
+  double delta_e = 0;
   std::string_view material{};
 };
 /// The greatest ΔE2000 of a form, over roughness and views.
@@ -171,7 +166,7 @@ Seen most_seen(const SchlickRows& r,
         (!metal && c.material != "IOR 1.5") || (!material.empty() && c.material != material))
       continue;
     if (const double e = *std::ranges::max_element(c.delta_e); e > most.delta_e)
-      most = {e, c.mu, c.material};
+      most = {e, c.material};
   }
   return most;
 }
@@ -182,10 +177,9 @@ void rough_surfaces(Findings& to, const SchlickRows& r) {
              of_metal = most_seen(r, form_id::schlick, true);
   if (of_glass.delta_e == 0 || of_metal.delta_e == 0) return;
   to.headline = fmt::format(
-      "Schlick in place of exact Fresnel changes rough glass (IOR 1.5) by up to ΔE2000 {}, "
-      "{}, and metals by up to {} ({}).",
-      rounded_up(of_glass.delta_e), seen_at(of_glass.mu), rounded_up(of_metal.delta_e),
-      of_metal.material);
+      "With Schlick in place of exact Fresnel, rough glass (IOR 1.5) is off by up to ΔE2000 {}, "
+      "and the worst metal, {}, by up to {}.",
+      rounded_up(of_glass.delta_e), of_metal.material, rounded_up(of_metal.delta_e));
   to.say(to.headline);
   for (const auto& [form, words] :
        {std::pair<std::string_view, std::string_view>{"fresnel.f82", "F82"},

@@ -59,7 +59,7 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   if (!cross) return;
   const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed");
   to.say(fmt::format(
-      "D of GGX, by itself, stays within {} in half from {} on, if the shader computes |n × h|²{}.",
+      "In half precision, D of GGX stays within {} from {} on, if the shader computes |n × h|²{}.",
       percent(cross->tolerance, 1), from_text(*cross),
       flushed ? " and the processor keeps subnormals" : ""));
   std::string answer;

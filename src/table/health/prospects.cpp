@@ -204,14 +204,14 @@ Prospect intervals(const Table& t) {
   // Told apart as the fit does for its intervals.
   const std::size_t n =
       t.list() ? incident_angles(*t.list()).count : t.grid()->axes[0].size - copied_rows(t, 0);
-  return {
-      "intervals",
-      n >= 8   ? yes
-      : n >= 2 ? weakly
-               : no,
-      fmt::format("{}; an error common to all values of one angle is hard to estimate with fewer "
-                  "than 8 angles, or fewer than two angles for each free parameter",
-                  counted(n, "incident angle"))};
+  return {"intervals",
+          n >= 8   ? yes
+          : n >= 2 ? weakly
+                   : no,
+          fmt::format(
+              "{}; estimating errors common to all values of one angle takes at least 8 angles, "
+              "and at least two for each free parameter",
+              counted(n, "incident angle"))};
 }
 
 }  // namespace

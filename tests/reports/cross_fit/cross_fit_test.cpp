@@ -435,7 +435,8 @@ TEST(CrossFit, FindingsFollowTheFigures) {
     const auto all = findings(r).sentences;
     return std::ranges::any_of(all, [&](const std::string& f) { return f.find(words) != f.npos; });
   };
-  EXPECT_TRUE(findings(r).headline.starts_with("F0 of glass comes out off by "))
+  EXPECT_TRUE(findings(r).headline.starts_with(
+      "A fit of glass with Schlick's k = (r+1)²/8 gets F0 wrong by "))
       << findings(r).headline;
   EXPECT_TRUE(said("fitted with Schlick in place of exact Fresnel"));
   EXPECT_TRUE(said("gives its parameters back."));

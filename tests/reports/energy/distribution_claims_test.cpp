@@ -57,7 +57,7 @@ TEST(DistributionClaims, ARiemannSumIsOffByItsBias) {
   r.light.irradiance = {rule("riemann", -0.055), rule("riemann_midpoint", 0.003)};
   const auto c = judged(r).claims.at(0);
   EXPECT_EQ(c.judged, partly);
-  EXPECT_EQ(c.figure, "−5.5\u00a0% at 64 samples");
+  EXPECT_EQ(c.figure, "the sum is off by −5.5\u00a0% at 64 samples");
   r.light.irradiance[0].bias = -0.2;
   EXPECT_EQ(judged(r).claims.at(0).judged, fails);
 }

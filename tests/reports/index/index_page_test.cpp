@@ -24,12 +24,16 @@ ReportFiles made_files() {
                      {"fresnel.gulbrandsen", "metal", "gold", 0, 0}};
   r.facts.precision = {{"ndf.ggx", "cross", "half, flushed", 0.02, 0.004},
                        {"ggx/smith_ggx.correlated/schlick", "directions", "half", 0.02, 0.04, 88}};
+  r.facts.masking = {{"masking.schlick_ggx.direct", 0.28},
+                     {"masking.cook_torrance", 0.4},
+                     {"masking.smith_ggx.correlated", 0}};
+  for (const auto& [id, ns] : {std::pair("masking.schlick_ggx.direct", 0.3),
+                               {"masking.cook_torrance", 0.5},
+                               {"masking.smith_ggx.correlated", 0.6}})
+    r.facts.in_cache.push_back({id, ns, 0.01});
   const FigureCurve points{"GGX", {1, 2}, {0.1, 0.2}, FigureCurve::Kind::points};
-  FigureCurve front{"front of GGX", {1, 2}, {0.1, 0.2}};
-  front.dashed = true;
-  r.pictures.figures = {
-      {"first", "First", "", {"x"}, {"y"}, {points}},
-      {"masking_float_avx2_cache", "Masking", "", {"x"}, {"y"}, {points, front, points}}};
+  r.pictures.figures = {{"first", "First", "", {"x"}, {"y"}, {points}},
+                        {"second", "Second", "", {"x"}, {"y"}, {points}}};
   return r;
 }
 
@@ -37,7 +41,7 @@ TEST(ReportIndex, TellsDecisionsOneSentenceAReportAndClaimsWithTheirFigure) {
   ReportIndex index{{}, "0.1.0", true, 1234, {}, {}};
   add_report(index, "schlick", "Schlick against exact Fresnel", 1500, made_files());
   const auto j = nlohmann::json::parse(to_json(index));
-  EXPECT_EQ(j["decisions"][0]["take_id"], "ndf.ggx");
+  EXPECT_EQ(j["decisions"][0]["take_id"], "masking.smith_ggx.correlated");
   for (const char* key : {"for", "take", "take_id", "error", "cost", "unless"})
     EXPECT_TRUE(j["decisions"][0].contains(key)) << key;
   const auto& r = j["reports"][0];
@@ -47,8 +51,11 @@ TEST(ReportIndex, TellsDecisionsOneSentenceAReportAndClaimsWithTheirFigure) {
   EXPECT_EQ(r["time_ms"], 1500);
   EXPECT_EQ(j["claims"][0]["judged"], "holds in part");
   EXPECT_EQ(j["claims"][0]["figure"], "0.036 of light");
-  EXPECT_EQ(j["front"][0]["curves"].size(), 2U) << "the first series and its front";
-  EXPECT_EQ(j["front"][0]["curves"][0]["name"], "masking forms for GGX");
+  const auto& curves = j["front"][0]["curves"];
+  ASSERT_EQ(curves.size(), 2U);
+  EXPECT_EQ(curves[0]["y"], (std::vector<double>{0.28, 0.4, 0})) << "the errors of the table";
+  EXPECT_EQ(curves[0]["labels"][1], "Cook–Torrance");
+  EXPECT_EQ(curves[1]["y"], (std::vector<double>{0.28, 0})) << "Cook–Torrance is beaten in both";
   EXPECT_EQ(j["front"][0]["y"]["label"], "RMS error of G₂");
   ASSERT_EQ(j["fresnel"].size(), 2U) << "a decision may name any of them";
   EXPECT_EQ(j["fresnel"][0]["form"], "Schlick");

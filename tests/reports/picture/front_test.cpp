@@ -43,11 +43,14 @@ TEST(FrontPlace, TakesErrorsThatDifferByRoundingForTheSame) {
   EXPECT_FALSE(place(form(2, 0.1, 0.0600770), form(1, 0.1, 0.0600771)).front);
 }
 
-TEST(FrontPlace, IsOnTheLineWhereNoneAsExactIsAsFast) {
+TEST(FrontPlace, IsOnTheLineWhereNoneAsExactTookLess) {
   EXPECT_TRUE(place(form(1, 0.1, 0.5), form(2, 0.1, 0.5)).on_line);
   EXPECT_FALSE(place(form(2, 0.1, 0.5), form(1, 0.1, 0.5)).on_line) << "it is beaten";
-  EXPECT_FALSE(place(form(1, 0.2, 0.5), form(1.3, 0.2, 0.4)).on_line) << "a tie with a nearer one";
-  EXPECT_TRUE(place(form(1, 0.1, 0.5), form(1.3, 0.1, 0.4)).on_line);
+  EXPECT_TRUE(place(form(1, 0.2, 0.5), form(1.3, 0.2, 0.4)).on_line)
+      << "as it is drawn: the spreads hide which is faster, not which point is further left";
+  EXPECT_FALSE(place(form(1.3, 0.2, 0.5), form(1, 0.2, 0.4)).on_line)
+      << "the rival is better in both";
+  EXPECT_FALSE(place(form(1, 0.1, 0.5), form(1, 0.1, 0.4)).on_line) << "as fast, and less exact";
 }
 
 const std::vector<FrontDot> dots{{"slow", form(3, 0.3, 0.01), true},

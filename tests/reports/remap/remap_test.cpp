@@ -186,6 +186,16 @@ TEST(RemapReport, RowsAreFlatAndHaveTheKeysOfTheContract) {
   EXPECT_EQ(j["maps"][0]["values"].size(), 400U) << "of the roughness that is shown";
 }
 
+TEST(RemapFacts, PutTheWordingOfFewerOperationsFirst) {
+  const auto f = facts(of({separable, correlated, joint, hammon}, {0.5}));
+  const auto place = [&](std::string_view form) {
+    return std::ranges::find(f.masking, form, &Facts::Masking::form) - f.masking.begin();
+  };
+  ASSERT_EQ(f.masking.size(), 4U);
+  EXPECT_NEAR(f.masking[place(hammon)].rms, f.masking[place(joint)].rms, 1e-9);
+  EXPECT_LT(place(hammon), place(joint));
+}
+
 TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
   auto r = of({separable, correlated, direct, image, joint, unity}, {0.1, 0.3, 0.5});
   const auto all = findings(r);
@@ -200,7 +210,7 @@ TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
   EXPECT_TRUE(said(fmt::format("like one of roughness {:.2f} by height-correlated Smith",
                                row(r, direct, correlated, 0.3).by_g2.roughness)));
   EXPECT_EQ(all.claims[0].figure,
-            fmt::format("G₂ off by {:.2g} with (r+1)²/8, {:.2g} with r²/2, RMS",
+            fmt::format("RMS error of G₂: {:.2g} with (r+1)²/8, {:.2g} with r²/2",
                         *overall_rms(r, direct, correlated), *overall_rms(r, image, correlated)));
   EXPECT_NE(fmt::format("{:.2g}", *overall_rms(r, image, correlated)),
             fmt::format("{:.2g}", *overall_rms(r, image, separable)))
@@ -209,8 +219,8 @@ TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
   EXPECT_EQ(all.claims.size(), 4U);
   // already too dark: 0.471 of what should be 0.543
   EXPECT_TRUE(said("“k = α/2 is too bright at grazing angles” does not hold"));
-  EXPECT_EQ(all.claims[1].figure, "G1 0.471, exact 0.543 at NoV 0.1");
-  EXPECT_EQ(all.claims[2].figure, "G1 0.283, exact 0.543 at NoV 0.1");
+  EXPECT_EQ(all.claims[1].figure, "13\u00a0% darker than exact Smith at NoV 0.1");
+  EXPECT_EQ(all.claims[2].figure, "72\u00a0% darker at NoV 0.1, by exact Smith 46\u00a0%");
   EXPECT_TRUE(said("“F V ≈ 1/(LoH²(r+0.5))” does not hold. Off by a factor of up to "));
   for (auto& row : r.rows)  // were it the other way round
     if (row.form == direct) row.rms = 0;
@@ -234,9 +244,9 @@ TEST(RemapReport, WhatLacksAQuarterIsFourTimesAsMuch) {
   auto r = of({unity}, {0.5});
   const auto figure = [&] { return findings(r).claims.back().figure; };
   for (auto& v : r.vf) v.least = v.most = 1;
-  EXPECT_EQ(figure(), "off by a factor of up to 4; with a ¼ by up to 1");
+  EXPECT_EQ(figure(), "off by a factor of up to 4; with a ¼, up to 1");
   for (auto& v : r.vf) v.least = 0.09, v.most = 1.8, v.factor = 3;
-  EXPECT_EQ(figure(), "off by a factor of up to 7.2; with a ¼ by up to 12") << "not the RMS factor";
+  EXPECT_EQ(figure(), "off by a factor of up to 7.2; with a ¼, up to 12") << "not the RMS factor";
 }
 
 TEST(RemapReport, NamesOfTwoFormsOfTheSameValuesTheOneOfFewerOperations) {

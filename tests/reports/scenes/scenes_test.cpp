@@ -300,8 +300,8 @@ TEST(ScenesFindings, CountAPlanAsFasterWhereItsTableSaysSo) {
     const auto headline = findings(r).headline;
     EXPECT_NE(headline.find(scenes), headline.npos) << headline;
   };
-  counted(1.13, "In 2 of them leaving out");
-  counted(1.12, "In 1 of them leaving out");
+  counted(1.13, "In 2 of 3 scenes, leaving out");
+  counted(1.12, "In 1 of 3 scenes, leaving out");
 }
 
 TEST(ScenesFindings, BlameTheTableOnlyWhereAPlanKeepsIt) {
