@@ -1,4 +1,4 @@
-// What the index decides by: times of terms in cache, and of whole models where memory bounds them.
+// What the index decides by: times of terms and of whole models in cache.
 #include "reports/cost/cost.h"
 
 namespace gonio {
@@ -15,7 +15,6 @@ Facts facts(const CostRows& r) {
       f.setting->model_ns = row.time.ns;
     // Few models have a fused loop.
     if (row.memory == "cache" && row.way == "composed") f.whole.push_back(time);
-    if (row.memory == "streaming" && row.way == "composed") f.streaming.push_back(time);
   }
   return f;
 }

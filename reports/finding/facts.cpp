@@ -25,7 +25,6 @@ void join(Facts& to, const Facts& from) {
   if (from.setting) to.setting = from.setting;
   append(to.in_cache, from.in_cache);
   append(to.whole, from.whole);
-  append(to.streaming, from.streaming);
   append(to.masking, from.masking);
   append(to.fresnel, from.fresnel);
   append(to.scattering, from.scattering);

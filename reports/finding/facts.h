@@ -28,15 +28,14 @@ struct Facts {
     std::optional<double> model_ns{};
   };
   std::optional<Setting> setting{};
-  /// Time of a sample in float [ns]: of a term in columns that stay in cache; of a whole model, composed of its terms, in such columns
-  /// and in columns that do not.
+  /// Time of a sample in float, in columns that stay in cache [ns]: of a term; of a whole model, composed of its terms.
   struct Time {
     std::string id;  ///< of the term, or the model's spec
     double ns, spread;
     std::vector<double>
         each{};  ///< in each process that measured, in their order; empty: one alone
   };
-  std::vector<Time> in_cache{}, whole{}, streaming{};
+  std::vector<Time> in_cache{}, whole{};
   /// RMS distance of a masking form's G₂ from height-correlated Smith's for GGX, over directions and roughness.
   struct Masking {
     std::string form;

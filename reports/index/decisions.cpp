@@ -76,22 +76,11 @@ std::string cost_text(const Candidate& taken, const Candidate& cheap) {
   if (!d.survives) return "none measured";
   return (d.ns < 0 ? "−" : "+") + ns_text(d.ns);
 }
-/// What to take instead where time is what lacks, what it leaves and what that saves.
-std::string cheaper_text(const Candidate& cheaper, std::string_view left, double saved_ns) {
-  return fmt::format("time is short: then {}, which leaves {} and saves {}",
-                     name_of_form(cheaper.form), left, ns_text(saved_ns));
+/// What to take instead where time is what lacks, and what it leaves.
+std::string cheaper_text(const Candidate& cheaper, std::string_view left) {
+  return fmt::format("time is short: then {}, {}", name_of_form(cheaper.form), left);
 }
-/// Aside on the cost, where both stand in a whole model, composed of its terms: what is left of it where memory is the limit, if not
-/// every process found it.
-std::string streaming_aside(const Facts& f, std::string_view taken, std::string_view cheap) {
-  const auto *a = time_of(f.streaming, taken), *b = time_of(f.streaming, cheap);
-  if (!a || !b) return {};
-  constexpr double seen = 0.1;  // of the model's time, that a spread must not hide
-  const auto d = more(*b, *a);
-  if (a->each.size() < 2 || (d.survives && d.ns > 0) || d.spread_ns > seen * b->ns) return {};
-  return fmt::format(" ({}{:.2f} ± {:.2f} ns in a whole model that reads its inputs from memory)",
-                     d.ns < 0 ? "−" : "+", std::abs(d.ns), d.spread_ns);
-}
+
 // --- Masking ---
 
 void masking(std::vector<Decision>& to, const Facts& f) {
@@ -106,32 +95,21 @@ void masking(std::vector<Decision>& to, const Facts& f) {
   const auto model = [](std::string_view form) {
     return to_text(model_of_lobe("ggx", short_id(form), "schlick"));
   };
-  const auto cost = cost_text(*taken, *cheap);
   // What saves nothing in a whole model is worth no error.
-  const auto saved = [&](const Candidate& c) -> std::optional<TimeDifference> {
-    const auto *a = time_of(f.whole, model(taken->form)), *b = time_of(f.whole, model(c.form));
-    if (!a || !b) return {};
-    return more(*b, *a);
+  const auto* whole = time_of(f.whole, model(taken->form));
+  const auto in_whole = [&](const Candidate& c) {
+    return whole && c.form != taken->form ? time_of(f.whole, model(c.form)) : nullptr;
   };
   Candidates worth = all;
-  if (std::ranges::any_of(all,
-                          [&](const Candidate& c) { return c.form != taken->form && saved(c); }))
+  if (std::ranges::any_of(all, in_whole))
     std::erase_if(worth, [&](const Candidate& c) {
-      const auto d = saved(c);
-      return !d || !d->survives || d->ns <= 0;
+      const auto* t = in_whole(c);
+      return !t || !is_clearly_cheaper(candidate(c.form, 0, *t), candidate(taken->form, 0, *whole));
     });
-  std::string unless;
-  if (const auto* other = nearest_cheaper(worth, *taken)) {
-    const auto whole = saved(*other);
-    unless = cheaper_text(*other, rms(*other), whole ? whole->ns : more(*other, *taken).ns) +
-             (whole ? " in a whole model" : "");
-  }
+  const auto* other = nearest_cheaper(worth, *taken);
   to.push_back({"Masking", name_of_form(taken->form), taken->form,
                 is_exact(*taken) ? fmt::format("none (Schlick's k: {})", rms(*cheap)) : rms(*taken),
-                cost.starts_with('+')
-                    ? cost + streaming_aside(f, model(taken->form), model(cheap->form))
-                    : cost,
-                unless});
+                cost_text(*taken, *cheap), other ? cheaper_text(*other, rms(*other)) : ""});
 }
 
 // --- Distribution ---
@@ -148,8 +126,8 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
        fmt::format(
-           "typically {} off published fits of measured materials (median; {} of the {} fits that "
-           "determine GTR's gamma have a longer tail than GGX)",
+           "typically {} off published fits of measured materials ({} of the {} that determine "
+           "gamma have a longer tail)",
            factor(t.ggx_log_rms), t.longer, t.determined),
        std::string(no_more),
        fmt::format("you fit gamma, too (median {:.2g}): then GTR with its own Smith, typically {}, "
@@ -273,11 +251,8 @@ void fresnel_of(std::vector<Decision>& to,
     if (is_clearly_cheaper(*cheap, *taken))
       d.unless = head_on <= just_seen
                      ? "it is seen only head on: then Schlick, " + delta_at_most(head_on)
-                     : cheaper_text(*cheap, delta_at_most(cheap->error), more(*cheap, *taken).ns);
+                     : cheaper_text(*cheap, delta_at_most(cheap->error));
   }
-  if (d.cost.starts_with('+'))
-    d.cost += streaming_aside(f, fmt::format("ggx/smith_ggx.correlated/{}", short_id(d.take_id)),
-                              fmt::format("ggx/smith_ggx.correlated/{}", short_id(schlick)));
   to.push_back(std::move(d));
 }
 
@@ -313,11 +288,11 @@ std::optional<double> seen_from(const Facts::Scattering& s) {
   return {};
 }
 
-/// Greatest ΔE2000 of a form at roughnesses from one on and below another.
-double most_between(const Facts::Scattering& way, double from, double to) {
+/// Greatest ΔE2000 of a form at roughnesses below one.
+double most_below(const Facts::Scattering& way, double roughness) {
   double most = 0;
   for (std::size_t i = 0; i < way.roughness.size(); ++i)
-    if (way.roughness[i] >= from && way.roughness[i] < to) most = std::max(most, way.delta_e[i]);
+    if (way.roughness[i] < roughness) most = std::max(most, way.delta_e[i]);
   return most;
 }
 /// Compensation from a roughness on, below which nothing is done: where it shows and is nearer than nothing.  No value where what it
@@ -333,34 +308,31 @@ std::optional<Compensated> compensated(const Facts::Scattering& way,
   const auto nearer = nearer_from(way, nothing), seen = seen_from(nothing);
   if (!nearer || !seen) return {};
   Compensated c{std::max(*nearer, *seen), 0, 0};
-  c.below = most_between(nothing, 0, c.from);
-  c.error = most_between(way, c.from, HUGE_VAL);
+  c.below = most_below(nothing, c.from);
+  for (std::size_t i = 0; i < way.roughness.size(); ++i)
+    if (!(way.roughness[i] < c.from)) c.error = std::max(c.error, way.delta_e[i]);
   if (std::ranges::max(nothing.delta_e) - c.both() < just_seen) return {};
   return c;
 }
 
-/// What is done below the roughness where a compensation begins.
+/// The form for surfaces smoother than those that a compensation is used on: another compensation, or one bounce.
 struct Below {
-  const Facts::Compensation* form = nullptr;  ///< from a lower roughness on; null: one bounce
-  double from, error;                         ///< that roughness; greatest ΔE2000 of it all
+  const Facts::Compensation* form = nullptr;  ///< null: one bounce
+  double error;                               ///< greatest ΔE2000
 };
-/// Returns the other compensation that begins earlier and leaves least; one bounce, if nobody sees what it leaves or what another
-/// gains.
+/// Returns the form other than `taken` that leaves least there; one bounce, if nobody sees what it leaves or what another gains.
 Below nearest_below(const Facts& f,
                     std::string_view taken,
                     const Facts::Scattering& nothing,
                     const Compensated& pays) {
-  Below best{nullptr, 0, pays.below};
+  Below best{nullptr, pays.below};
   if (!(pays.below > side_by_side)) return best;
   double least = pays.below - just_seen;
-  for (const auto& c : f.compensations) {
-    const auto* way = scattering_of(f, c.id, nothing.f0, nothing.of_image_light);
-    if (!way || c.id == taken || c.of_image_light != nothing.of_image_light) continue;
-    const auto own = compensated(*way, nothing);
-    if (!own || !(own->from < pays.from)) continue;
-    const double error = std::max(own->below, most_between(*way, own->from, pays.from));
-    if (error < least) best = {&c, own->from, least = error};
-  }
+  for (const auto& c : f.compensations)
+    if (const auto* way = scattering_of(f, c.id, nothing.f0, nothing.of_image_light);
+        way && c.id != taken && c.of_image_light == nothing.of_image_light)
+      if (const double error = most_below(*way, pays.from); error < least)
+        best = {&c, least = error};
   return best;
 }
 
@@ -393,11 +365,8 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     const auto& pays = used.at(taken->form);
     const auto below = nearest_below(f, taken->form, *nothing, pays);
-    d.take = fmt::format(
-        "{} from roughness {:g} on, {}one bounce below", name_of_form(taken->form), pays.from,
-        below.form ? fmt::format("{} between {:g} and {:g}, ", name_of_form(below.form->id),
-                                 below.from, pays.from)
-                   : "");
+    d.take = fmt::format("{} from roughness {:g} on, {} below", name_of_form(taken->form),
+                         pays.from, below.form ? name_of_form(below.form->id) : "one bounce");
     d.error = fmt::format("{} (one bounce: {})", delta_at_most(std::max(pays.error, below.error)),
                           at_most(without));
     d.cost = fmt::format("{} {}{} (one bounce: {})", name_of_form(taken->form),
@@ -408,9 +377,9 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
                          ns_text(costs->without_ns));
   }
   if (other && other->form != single)
-    d.unless =
-        fmt::format("time is short: then {} from roughness {:g} on, {}", name_of_form(other->form),
-                    used.at(other->form).from, delta_at_most(other->error));
+    d.unless = fmt::format("time is short: then {} from roughness {:g} on, one bounce below, {}",
+                           name_of_form(other->form), used.at(other->form).from,
+                           delta_at_most(other->error));
   to.push_back(std::move(d));
 }
 
@@ -507,9 +476,8 @@ void precision(std::vector<Decision>& to, const Facts& f) {
       {fmt::format("Precision: a GGX highlight in half (F0 of {:g} or more)", half->least_f0),
        fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
        "ndf.ggx",
-       fmt::format(
-           "≤ {}, the worst that a search found (cosines in half, too; angles up to {:.0f}°)",
-           percent(half->tolerance, 2), half->zenith_deg),
+       fmt::format("≤ {} (the worst found by searching angles up to {:.0f}°, with cosines in half)",
+                   percent(half->tolerance, 2), half->zenith_deg),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
        fmt::format("only D is in half: then α at least {}{}", rounded_up(*own->safe_from),

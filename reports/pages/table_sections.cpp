@@ -299,7 +299,8 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
                    several ? fmt::format("{} channels ({})", t.channels.size(), few_of(t.channels))
                            : "1 channel"));
   fact("valid values", of(h.valid));
-  for (std::size_t m = 1; m < h.masked.size(); ++m) fact(words(names_of<Mask>[m]), of(h.masked[m]));
+  for (std::size_t m = 1; m < h.masked.size(); ++m)
+    if (h.masked[m] > 0) fact(words(names_of<Mask>[m]), of(h.masked[m]));
   fact("range", fmt::format("{} (smallest positive) to {} 1/sr", significant(h.smallest_positive),
                             significant(h.largest)));
   fact("noise floor", h.noise_floor > 0

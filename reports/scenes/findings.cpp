@@ -86,16 +86,16 @@ void savings(Findings& to, const ScenesRows& r) {
                        by_table ? "set of forms without the tabulated light between facets"
                                 : "set of forms as fast as all effects"));
   }
-  if (held.size() < r.rows.size())
-    to.headline = fmt::format("Plans hold in {} scenes. ", of_all(held.size(), r.rows.size()));
-  to.headline += fmt::format(
-      "In {} scenes, leaving out effects that nobody sees saves time, up to {}.", save, up_to);
+  to.headline =
+      fmt::format("In {} scenes, leaving out effects that nobody sees saves time, up to {}.",
+                  of_all(held.size() - none.size() - slower.size(), r.rows.size()), up_to);
   if (!slower.empty())
     to.headline += fmt::format(
-        " In {} scenes cheap forms are not shown to be accurate enough: accurate ones take up to "
-        "{} "
-        "times as long.",
+        " In {}, cheap forms are not proven accurate enough: accurate ones take up to {} times as "
+        "long.",
         slower.size(), slowest_of(slower));
+  if (held.size() < r.rows.size())
+    to.headline += fmt::format(" In {}, the plan fails its check.", r.rows.size() - held.size());
   to.say(fmt::format(
       "{} means that ΔE2000 to the reference, in double, is at most {:g} at {} of the "
       "points; half of them are drawn near highlights.",

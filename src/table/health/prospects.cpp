@@ -209,8 +209,8 @@ Prospect intervals(const Table& t) {
           : n >= 2 ? weakly
                    : no,
           fmt::format(
-              "{}; estimating errors common to all values of one angle takes at least 8 angles, "
-              "and at least two for each free parameter",
+              "{}; estimating errors common to all values of one angle takes 8 angles, or two for "
+              "each free parameter if that is more",
               counted(n, "incident angle"))};
 }
 
