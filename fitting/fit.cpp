@@ -169,8 +169,10 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
           values.std_errors(),
           angles,
           angles,
-          stated ? "clustered by incident angle, or those of the stated uncertainties where larger"
-                 : "clustered by incident angle, or those of independent values where larger"};
+          stated ? "clustered by incident angle (values of one angle may err together), or of the "
+                   "stated uncertainties, whichever are larger"
+                 : "clustered by incident angle (values of one angle may err together), or of "
+                   "independent values, whichever are larger"};
 }
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.

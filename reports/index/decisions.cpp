@@ -474,17 +474,18 @@ void precision(std::vector<Decision>& to, const Facts& f) {
   }
   to.push_back(
       {fmt::format("Precision: a GGX highlight in half (F0 of {:g} or more)", half->least_f0),
-       fmt::format("sin² θ_h from |n × h|², α at least {}", rounded_up(*half->safe_from)),
+       fmt::format("sin² θ_h from |n × h|², α clamped to at least {}",
+                   rounded_up(*half->safe_from)),
        "ndf.ggx",
        fmt::format("≤ {} (the worst found by searching angles up to {:.0f}°, with cosines in half)",
                    percent(half->tolerance, 2), half->zenith_deg),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
-       fmt::format("only D is in half: then α at least {}{}", rounded_up(*own->safe_from),
-                   kept && kept->safe_from
-                       ? fmt::format(", or at least {} where the processor keeps subnormals",
-                                     rounded_up(*kept->safe_from))
-                       : "")});
+       fmt::format(
+           "only D is in half: then α clamped to at least {}{}", rounded_up(*own->safe_from),
+           kept && kept->safe_from ? fmt::format(", or to {} where the processor keeps subnormals",
+                                                 rounded_up(*kept->safe_from))
+                                   : "")});
 }
 
 }  // namespace

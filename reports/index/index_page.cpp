@@ -390,18 +390,18 @@ std::string index_page_html(const ReportIndex& i) {
               "650, 550 and 450 nm."}},
             {"Multiple scattering",
              {fmt::format(
-                 "Fresnel is Schlick's, and cosines are 0.1 or more. Compensation begins where one "
-                 "bounce is off by more than ΔE {0}, provided that compensation is nearer at this "
-                 "and all greater roughnesses. It is used if it gains ΔE {1} or more. Below, one "
-                 "bounce "
-                 "is used, or another compensation that gains ΔE {1} or more there.",
+                 "Fresnel is Schlick's, and cosines are 0.1 or more. The table names the roughness "
+                 "from which on compensation is nearer than one bounce, if one bounce is off by "
+                 "more than ΔE {0} there. For smoother surfaces it takes one bounce, or another "
+                 "compensation that is nearer by ΔE {1} or more. A compensation that gains less "
+                 "than ΔE {1} is not taken.",
                  plain(side_by_side), plain(just_seen))}},
-            {"Single lights",
+            {"Under single lights",
              {"A ball is lit from 30° and from 120° to the view. The reference is random walks of "
               "light. Their error is added to ΔE. A difference counts if it is more than twice "
               "their "
               "error."}},
-            {"Image-based light",
+            {"Under image-based light",
              {"The light is even. The reference is the transport of light between facets. Only "
               "Fdez-Agüera's compensation is compared: it was made for the split sum."}},
             {"Split sum",

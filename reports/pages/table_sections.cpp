@@ -361,7 +361,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
   }
   return {"What the table can be trusted for",
           fmt::format("These figures need no fit.{}{}",
-                      part ? " They do not count samples that the mask leaves out." : "",
+                      part ? " They count only the samples that the mask keeps." : "",
                       h.albedo.empty() ? ""
                                        : " Coverage is the share of the cosine-weighted hemisphere "
                                          "near valid samples."),

@@ -165,8 +165,8 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
             "scattering.fdez_aguera");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").cost, "none (the usual form)");
   const auto& bits = about(all, "Precision: a GGX highlight in half");
-  EXPECT_EQ(bits.take, "sin² θ_h from |n × h|², α at least 0.037");
-  EXPECT_EQ(bits.unless, "only D is in half: then α at least 0.004");
+  EXPECT_EQ(bits.take, "sin² θ_h from |n × h|², α clamped to at least 0.037");
+  EXPECT_EQ(bits.unless, "only D is in half: then α clamped to at least 0.004");
 }
 
 TEST(Decisions, NameBesideAPhotographNoFormThatShowsThere) {

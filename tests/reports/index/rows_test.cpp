@@ -278,7 +278,8 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   r.rows = {d};
   r.highlights = {{"ggx/smith_ggx.correlated/schlick", "half", 88, 0.5, 0.022, 0.0371, 0.0315}};
   const auto row = of(decisions(facts(r)), "Precision");
-  EXPECT_EQ(row.take, "sin² θ_h from |n × h|², α at least 0.038") << "at 0.037 it is not kept";
+  EXPECT_EQ(row.take, "sin² θ_h from |n × h|², α clamped to at least 0.038")
+      << "at 0.037 it is not kept";
   EXPECT_EQ(row.error,
             "≤ 2.2\u00a0% (the worst found by searching angles up to 88°, with cosines in half)");
   EXPECT_EQ(row.cost, "surfaces below roughness 0.2 look like 0.2");
