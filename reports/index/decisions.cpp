@@ -95,18 +95,14 @@ void masking(std::vector<Decision>& to, const Facts& f) {
   const auto model = [](std::string_view form) {
     return to_text(model_of_lobe("ggx", short_id(form), "schlick"));
   };
-  // What saves nothing in a whole model is worth no error.
-  const auto* whole = time_of(f.whole, model(taken->form));
-  const auto in_whole = [&](const Candidate& c) {
-    return whole && c.form != taken->form ? time_of(f.whole, model(c.form)) : nullptr;
-  };
-  Candidates worth = all;
-  if (std::ranges::any_of(all, in_whole))
-    std::erase_if(worth, [&](const Candidate& c) {
-      const auto* t = in_whole(c);
-      return !t || !is_clearly_cheaper(candidate(c.form, 0, *t), candidate(taken->form, 0, *whole));
-    });
-  const auto* other = nearest_cheaper(worth, *taken);
+  const auto* other = nearest_cheaper(all, *taken);
+  if (other) {  // what saves nothing in a whole model is worth no error
+    const auto *whole = time_of(f.whole, model(taken->form)),
+               *cheaper = time_of(f.whole, model(other->form));
+    if (whole && cheaper &&
+        !is_clearly_cheaper(candidate(other->form, 0, *cheaper), candidate(taken->form, 0, *whole)))
+      other = nullptr;
+  }
   to.push_back({"Masking", name_of_form(taken->form), taken->form,
                 is_exact(*taken) ? fmt::format("none (Schlick's k: {})", rms(*cheap)) : rms(*taken),
                 cost_text(*taken, *cheap), other ? cheaper_text(*other, rms(*other)) : ""});
@@ -438,14 +434,17 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
              cost_text(*taken, cheap),
              ""};
   if (taken->form != cheap_id && own)
-    d.error = below_lobe ? fmt::format("{}; up to {} of the light reflected (Lambert: {})", d.error,
-                                       made(*form_of(taken->form)), made(*lambert))
-                         : fmt::format("{} (Lambert: {})", d.error, delta_at_most(*own));
+    d.error = fmt::format("{} (Lambert: {})", d.error, delta_at_most(*own));
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format("energy does not matter: then “{}” ({}; up to {} of the light)",
-                           in_text(nearer->form), delta_at_most(nearer->error),
-                           made(*form_of(nearer->form)));
+    d.unless = fmt::format(
+        "energy does not matter: then “{}”, {}. With it, lobe and diffuse reflect up to {} of the "
+        "light, not {}",
+        in_text(nearer->form), delta_at_most(nearer->error), made(*form_of(nearer->form)),
+        made(*form_of(taken->form)));
+  else if (below_lobe && most_light(*form_of(taken->form)) > no_light_made)
+    d.error += fmt::format("; lobe and diffuse reflect up to {} of the light",
+                           made(*form_of(taken->form)));
   to.push_back(std::move(d));
 }
 
@@ -472,20 +471,22 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                   "none (half keeps its digits from no α on)", "", ""});
     return;
   }
-  to.push_back(
-      {fmt::format("Precision: a GGX highlight in half (F0 of {:g} or more)", half->least_f0),
-       fmt::format("sin² θ_h from |n × h|², α clamped to at least {}",
-                   rounded_up(*half->safe_from)),
-       "ndf.ggx",
-       fmt::format("≤ {} (the worst found by searching angles up to {:.0f}°, with cosines in half)",
-                   percent(half->tolerance, 2), half->zenith_deg),
-       fmt::format("surfaces below roughness {0} look like {0}",
-                   rounded_up(std::sqrt(*half->safe_from))),
-       fmt::format(
-           "only D is in half: then α clamped to at least {}{}", rounded_up(*own->safe_from),
-           kept && kept->safe_from ? fmt::format(", or to {} where the processor keeps subnormals",
-                                                 rounded_up(*kept->safe_from))
-                                   : "")});
+  to.push_back({fmt::format("Precision: a GGX highlight in half (on metal, F0 {:g} or more)",
+                            half->least_f0),
+                fmt::format("sin² θ_h from |n × h|², α clamped to at least {}",
+                            rounded_up(*half->safe_from)),
+                "ndf.ggx",
+                fmt::format("≤ {} of its value in double (found by a search over angles up to "
+                            "{:.0f}°, with cosines in half)",
+                            percent(half->tolerance, 2), half->zenith_deg),
+                fmt::format("surfaces below roughness {0} look like {0}",
+                            rounded_up(std::sqrt(*half->safe_from))),
+                fmt::format("only D is in half: then α clamped to at least {}{}",
+                            rounded_up(*own->safe_from),
+                            kept && kept->safe_from
+                                ? fmt::format(", or to {} where the processor keeps subnormals",
+                                              rounded_up(*kept->safe_from))
+                                : "")});
 }
 
 }  // namespace

@@ -222,7 +222,7 @@ bool is_timed_in_several_processes(const Facts& f) {
 }
 std::vector<Part> lead(const ReportIndex& i) {
   const auto& m = i.facts.setting;
-  std::string cost = "How much longer one evaluation takes than with the usual form";
+  std::string cost = "How much longer the form by itself takes than the usual one";
   if (m)
     cost += fmt::format(", in float, from cache, on {} with {}",
                         m->cpu.empty() ? "this machine" : m->cpu, m->isa);
@@ -390,11 +390,9 @@ std::string index_page_html(const ReportIndex& i) {
               "650, 550 and 450 nm."}},
             {"Multiple scattering",
              {fmt::format(
-                 "Fresnel is Schlick's, and cosines are 0.1 or more. The table names the roughness "
-                 "from which on compensation is nearer than one bounce, if one bounce is off by "
-                 "more than ΔE {0} there. For smoother surfaces it takes one bounce, or another "
-                 "compensation that is nearer by ΔE {1} or more. A compensation that gains less "
-                 "than ΔE {1} is not taken.",
+                 "Fresnel is Schlick's, and cosines are 0.1 or more. Compensation begins where one "
+                 "bounce is off by more than ΔE {} and compensation is nearer from there on. Gains "
+                 "below ΔE {} are not worth a compensation.",
                  plain(side_by_side), plain(just_seen))}},
             {"Under single lights",
              {"A ball is lit from 30° and from 120° to the view. The reference is random walks of "

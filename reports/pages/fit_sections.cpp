@@ -324,7 +324,7 @@ Section search(const FitDocument& d, Pictures& pictures) {
   FigureMap m = make_map("search");
   m.title = "Least cost of each cell";
   m.note = note;
-  m.value = "relative to the lowest cost";
+  m.value = "relative to the lowest known";
   m.scale = FigureMap::Scale::log;
   for (auto* axis : {&m.x, &m.y}) {
     const std::size_t a = axis == &m.x ? 0 : 1;

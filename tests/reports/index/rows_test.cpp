@@ -236,11 +236,10 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   const auto& below = of(rows, "Diffuse below a lobe");
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "Disney's is nearer, and makes more light than any";
-  EXPECT_EQ(below.error,
-            up_to(5.2) + "; up to 140\u00a0% of the light reflected (Lambert: 191\u00a0%)");
-  EXPECT_EQ(
-      below.unless,
-      "energy does not matter: then “Disney's diffuse” (ΔE ≤ 1; up to 220\u00a0% of the light)")
+  EXPECT_EQ(below.error, up_to(5.2) + " (Lambert: ΔE ≤ 9)");
+  EXPECT_EQ(below.unless,
+            "energy does not matter: then “Disney's diffuse”, ΔE ≤ 1. With it, lobe and diffuse "
+            "reflect up to 220\u00a0% of the light, not 140\u00a0%")
       << "the nearest of them, and what it gains";
 }
 
@@ -281,7 +280,8 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   EXPECT_EQ(row.take, "sin² θ_h from |n × h|², α clamped to at least 0.038")
       << "at 0.037 it is not kept";
   EXPECT_EQ(row.error,
-            "≤ 2.2\u00a0% (the worst found by searching angles up to 88°, with cosines in half)");
+            "≤ 2.2\u00a0% of its value in double (found by a search over angles up to 88°, with "
+            "cosines in half)");
   EXPECT_EQ(row.cost, "surfaces below roughness 0.2 look like 0.2");
   r.highlights[0].safe_from.reset();
   EXPECT_EQ(of(decisions(facts(r)), "Precision").take, "float instead");
