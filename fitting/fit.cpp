@@ -169,10 +169,10 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
           values.std_errors(),
           angles,
           angles,
-          stated ? "clustered by incident angle (values of one angle may err together), or of the "
-                   "stated uncertainties, whichever are larger"
-                 : "clustered by incident angle (values of one angle may err together), or of "
-                   "independent values, whichever are larger"};
+          stated ? "clustered by incident angle (values of one angle may err together), but never "
+                   "below those of the stated uncertainties"
+                 : "clustered by incident angle (values of one angle may err together), but never "
+                   "below those of independent values"};
 }
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.

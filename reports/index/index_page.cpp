@@ -390,9 +390,10 @@ std::string index_page_html(const ReportIndex& i) {
               "650, 550 and 450 nm."}},
             {"Multiple scattering",
              {fmt::format(
-                 "Fresnel is Schlick's, and cosines are 0.1 or more. Compensation begins where one "
-                 "bounce is off by more than ΔE {} and compensation is nearer from there on. Gains "
-                 "below ΔE {} are not worth a compensation.",
+                 "Fresnel is Schlick's, and cosines are 0.1 or more. Compensation begins at the "
+                 "roughness where one bounce is off by more than ΔE {}, if compensation is nearer "
+                 "to the reference there and at all greater roughnesses. Gains below ΔE {} are not "
+                 "worth a compensation.",
                  plain(side_by_side), plain(just_seen))}},
             {"Under single lights",
              {"A ball is lit from 30° and from 120° to the view. The reference is random walks of "

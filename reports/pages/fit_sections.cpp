@@ -267,8 +267,9 @@ Section search(const FitDocument& d, Pictures& pictures) {
     return {title, "No width, exponent or index is free: nothing was searched.", {}};
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
-      "For each of {} of {}, the other parameters were fitted anew to a part of the table; for the "
-      "best few of these, to the whole table. {} fits better than this page's parameters: the "
+      "For each of {} of {}, the other parameters were fitted to a part of the table. The best few "
+      "of these fits were repeated on the whole table. {} fits better than this page's parameters: "
+      "the "
       "lowest cost that the search found (half the sum of squares) is {}, the fit's own is {}.{} "
       "This is a search, not a "
       "proof.",

@@ -305,7 +305,7 @@ page::Section trust_section(const gonio::Table& t, const Health& h, bool part) {
                             significant(h.largest)));
   fact("noise floor", h.noise_floor > 0
                           ? significant(h.noise_floor) + " 1/sr, from the negative values"
-                          : "unknown (estimated from negative values: too few)");
+                          : "unknown: it is estimated from negative values, and there are too few");
   if (h.reciprocity_error)
     fact("reciprocity", fmt::format("{}: change when light and view are exchanged{}{}",
                                     percent(*h.reciprocity_error),
