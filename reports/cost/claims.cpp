@@ -35,12 +35,10 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
   };
   to.judge("Schlick's masking costs a bit more than the joint approximation", "",
            verdict(longer_than(*joint), longer_than(*plain)),
-           fmt::format("Schlick's {}, joint {}, joint with a clamp {}", ns(schlick->time),
-                       ns(plain->time), ns(joint->time)),
-           std::string("times are in float, from cache.") +
-               (is_tie(*schlick, *plain) || is_tie(*schlick, *joint)
-                    ? " Differences within the spread do not count."
-                    : ""));
+           fmt::format("Schlick's {}, joint {}{}, joint with a clamp {}{}", ns(schlick->time),
+                       ns(plain->time), is_tie(*schlick, *plain) ? " (a tie)" : "", ns(joint->time),
+                       is_tie(*schlick, *joint) ? " (a tie)" : ""),
+           "times are in float, from cache.");
 }
 
 void exact_is_slow(Findings& to, const CostRows& r) {

@@ -438,8 +438,8 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
     d.unless = fmt::format(
-        "energy does not matter: then “{}”, {}. With it, lobe and diffuse reflect up to {} of the "
-        "light, with the form taken up to {}",
+        "energy does not matter: then “{}”, {}, with up to {} of the light reflected (the form "
+        "taken: {})",
         in_text(nearer->form), delta_at_most(nearer->error), made(*form_of(nearer->form)),
         made(*form_of(taken->form)));
   else if (below_lobe && most_light(*form_of(taken->form)) > no_light_made)

@@ -231,8 +231,8 @@ std::vector<Part> lead(const ReportIndex& i) {
     cost += fmt::format(" A whole model, GGX composed of its terms, takes {} ns.",
                         significant(whole->ns, 2));
   cost +=
-      " Multiple scattering and the split sum have their whole times, which do not compare with "
-      "other rows.";
+      " Rows of multiple scattering and the split sum show total times instead, which compare only "
+      "within a row.";
   if (m && m->others && *m->others >= 0.25)
     cost += fmt::format(
         " The machine was busy: other programs took {} of {} processors, so times may be too long.",

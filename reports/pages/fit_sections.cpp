@@ -265,16 +265,23 @@ Section search(const FitDocument& d, Pictures& pictures) {
   constexpr auto title = "Whether other values fit better";
   if (c.cells.empty())
     return {title, "No width, exponent or index is free: nothing was searched.", {}};
+  std::vector<std::string> fitted;
+  double first = no_value;
+  for (const auto& name : c.parameters) {
+    const auto p = std::ranges::find(d.parameters, name, &FittedParameter::name);
+    if (p == d.parameters.end() || p->value.empty() || !known(p->value[0])) continue;
+    if (fitted.empty()) first = p->value[0];
+    fitted.push_back(fmt::format("{} {}", name, significant(p->value[0])));
+  }
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
       "For each of {} of {}, the other parameters were fitted to a part of the table. The best few "
-      "of these fits were repeated on the whole table. {} fits better than this page's parameters: "
-      "the "
+      "of these fits were repeated on the whole table. {} fits better than this page's fit{}: the "
       "lowest cost that the search found (half the sum of squares) is {}, the fit's own is {}.{} "
-      "This is a search, not a "
-      "proof.",
+      "This is a search, not a proof.",
       many(c.cells.size(), c.parameters.size() == 1 ? "value" : "pair"),
-      fmt::join(c.parameters, " and "), lies ? "None" : "One", significant(c.lowest, 6),
+      fmt::join(c.parameters, " and "), lies ? "None" : "One",
+      fitted.empty() ? "" : fmt::format(" ({})", fmt::join(fitted, ", ")), significant(c.lowest, 6),
       significant(d.cost, 6),
       c.moves > 0 ? fmt::format(" The fit began anew from a better one {}.",
                                 many(static_cast<std::size_t>(c.moves), "time"))
@@ -292,19 +299,9 @@ Section search(const FitDocument& d, Pictures& pictures) {
     std::ranges::sort(places[a]);
     places[a].erase(std::ranges::unique(places[a]).begin(), places[a].end());
   }
-  std::vector<std::string> fitted;
-  double first = no_value;
-  for (const auto& name : c.parameters) {
-    const auto p = std::ranges::find(d.parameters, name, &FittedParameter::name);
-    if (p == d.parameters.end() || p->value.empty() || !known(p->value[0])) continue;
-    if (fitted.empty()) first = p->value[0];
-    fitted.push_back(fmt::format("{} {}", name, significant(p->value[0])));
-  }
-  const auto note = fitted.empty() ? "" : fmt::format("the fit is at {}", fmt::join(fitted, ", "));
   if (places.size() == 1) {
     Figure f = make_figure("search");
     f.title = "Least cost at each " + c.parameters[0];
-    f.note = note;
     f.x = {c.parameters[0], places[0][0] > 0};
     f.y = {"least cost, relative to the lowest known", true};
     FigureCurve curve{"least cost", {}, {}, FigureCurve::Kind::both};
@@ -324,7 +321,6 @@ Section search(const FitDocument& d, Pictures& pictures) {
   }
   FigureMap m = make_map("search");
   m.title = "Least cost of each cell";
-  m.note = note;
   m.value = "relative to the lowest known";
   m.scale = FigureMap::Scale::log;
   for (auto* axis : {&m.x, &m.y}) {

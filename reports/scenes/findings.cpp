@@ -90,10 +90,9 @@ void savings(Findings& to, const ScenesRows& r) {
       fmt::format("In {} scenes, leaving out effects that nobody sees saves up to {} of the time.",
                   of_all(held.size() - none.size() - slower.size(), r.rows.size()), up_to);
   if (!slower.empty())
-    to.headline += fmt::format(
-        " In {} others, cheap forms are not proven accurate enough: accurate ones take up to {} "
-        "times as long as these.",
-        slower.size(), slowest_of(slower));
+    to.headline +=
+        fmt::format(" In {} others, only forms up to {} times as slow are proven accurate enough.",
+                    slower.size(), slowest_of(slower));
   if (held.size() < r.rows.size())
     to.headline += fmt::format(" In {}, the plan fails its check.", r.rows.size() - held.size());
   to.say(fmt::format(

@@ -57,8 +57,8 @@ TEST(CostClaims, ADifferenceThatOneProcessDoesNotFindIsATie) {
   EXPECT_EQ(judged(r).judged, holds);
   r.rows[0].each[2] = 0.215;
   EXPECT_EQ(judged(r).judged, partly);
-  EXPECT_NE(judged(r).verdict.find("Differences within the spread do not count."),
-            std::string::npos);
+  EXPECT_EQ(judged(r).figure,
+            "Schlick's 0.23 ns, joint 0.20 ns, joint with a clamp 0.21 ns (a tie)");
 }
 
 TEST(CostClaims, ExactFresnelIsSlowIfAWholeModelIs) {

@@ -221,9 +221,8 @@ TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
   EXPECT_EQ(below.take_id, "diffuse.lambert.coupled")
       << "where all make light, that which makes least";
   EXPECT_EQ(below.unless,
-            "energy does not matter: then “Hammon's diffuse for GGX and Smith”, ΔE ≤ 3.5. With it, "
-            "lobe and diffuse reflect up to 160\u00a0% of the light, with the form taken up to "
-            "150\u00a0%");
+            "energy does not matter: then “Hammon's diffuse for GGX and Smith”, ΔE ≤ 3.5, with up "
+            "to 160\u00a0% of the light reflected (the form taken: 150\u00a0%)");
 }
 
 TEST(Decisions, ChangeWhereAThresholdIsCrossed) {

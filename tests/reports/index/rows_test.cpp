@@ -238,8 +238,8 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
       << "Disney's is nearer, and makes more light than any";
   EXPECT_EQ(below.error, up_to(5.2) + " (Lambert: ΔE ≤ 9)");
   EXPECT_EQ(below.unless,
-            "energy does not matter: then “Disney's diffuse”, ΔE ≤ 1. With it, lobe and diffuse "
-            "reflect up to 220\u00a0% of the light, with the form taken up to 140\u00a0%")
+            "energy does not matter: then “Disney's diffuse”, ΔE ≤ 1, with up to 220\u00a0% of the "
+            "light reflected (the form taken: 140\u00a0%)")
       << "the nearest of them, and what it gains";
 }
 
