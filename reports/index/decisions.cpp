@@ -39,14 +39,16 @@ const Candidate* find(const Candidates& all, std::string_view form) {
   const auto at = std::ranges::find(all, form, &Candidate::form);
   return at == all.end() ? nullptr : &*at;
 }
+/// It saves a part of the other's time for which one leaves a form.
+bool saves_enough(const Candidate& a, const Candidate& b) {
+  constexpr double worth = 0.1;
+  return is_clearly_cheaper(a, b) && more(a, b).ns > worth * b.ns;
+}
 /// The nearest of those that save a part of what is taken that is worth an error; the first of those that are as near.
 const Candidate* nearest_cheaper(const Candidates& all, const Candidate& taken) {
-  constexpr double worth = 0.1;
   const Candidate* best = nullptr;
   for (const auto& c : all)
-    if (is_clearly_cheaper(c, taken) && more(c, taken).ns > worth * taken.ns &&
-        (!best || c.error < 0.99 * best->error))
-      best = &c;
+    if (saves_enough(c, taken) && (!best || c.error < 0.99 * best->error)) best = &c;
   return best;
 }
 
@@ -438,8 +440,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
   if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
     d.unless = fmt::format(
-        "energy does not matter: then “{}”, {}, with up to {} of the light reflected (the form "
-        "taken: {})",
+        "energy does not matter: then “{}”, {}, with up to {} of the light reflected instead of {}",
         in_text(nearer->form), delta_at_most(nearer->error), made(*form_of(nearer->form)),
         made(*form_of(taken->form)));
   else if (below_lobe && most_light(*form_of(taken->form)) > no_light_made)
@@ -505,7 +506,7 @@ const Candidate* choose(std::span<const Candidate> all, std::string_view cheap, 
   if (!cheapest) return nearest;
   const Candidate* taken = cheapest;
   for (const auto& c : all) {
-    if (c.error > enough || is_clearly_cheaper(*cheapest, c)) continue;
+    if (c.error > enough || saves_enough(*cheapest, c)) continue;
     if (c.form == cheap) return &c;
     if (c.error < taken->error) taken = &c;
   }

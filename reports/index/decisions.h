@@ -35,8 +35,8 @@ struct Candidate {
   double ns, spread;           ///< time of a sample [ns]
   std::vector<double> each{};  ///< the same in each process that measured; empty: one alone
 };
-/// The cheapest of those whose error is at most `enough`; of several whose times differ by nothing that survives (timing.h) the
-/// cheap form, else the nearest.  If none is good enough, the nearest of all.  nullptr of none.
+/// The cheapest of those whose error is at most `enough`; of several whose times differ by less than a tenth, or by nothing that
+/// survives (timing.h), the cheap form, else the nearest.  If none is good enough, the nearest of all.  nullptr of none.
 /// \param cheap  form that is shipped unless it shows
 const Candidate* choose(std::span<const Candidate>, std::string_view cheap, double enough);
 

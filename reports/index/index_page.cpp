@@ -379,7 +379,7 @@ std::string index_page_html(const ReportIndex& i) {
              {fmt::format(
                  "The table takes the cheapest form with a small error: up to ΔE2000 {}, or an RMS "
                  "error of {} in G₂. If no form has a small error, it takes the one with the least "
-                 "error. If several are as cheap, it takes the usual one.",
+                 "error. If several cost the same within a tenth, it takes the usual one.",
                  plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
@@ -391,9 +391,9 @@ std::string index_page_html(const ReportIndex& i) {
             {"Multiple scattering",
              {fmt::format(
                  "Fresnel is Schlick's, and cosines are 0.1 or more. Compensation begins at the "
-                 "roughness where one bounce is off by more than ΔE {}, if compensation is nearer "
-                 "to the reference there and at all greater roughnesses. Gains below ΔE {} are not "
-                 "worth a compensation.",
+                 "roughness where one bounce is off by more than ΔE {}. From there on it must be "
+                 "nearer to the reference than one bounce, or it begins later. Gains below ΔE {} "
+                 "are not worth a compensation.",
                  plain(side_by_side), plain(just_seen))}},
             {"Under single lights",
              {"A ball is lit from 30° and from 120° to the view. The reference is random walks of "

@@ -168,10 +168,12 @@ void verdict_on_vf(Findings& to, const RemapRows& r) {
     with_it = std::max(with_it, largest_factor(v, 1));
   }
   if (most == 0) return;
-  to.judge("F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
-           fmt::format("off by a factor of up to {}; with a ¼, up to {}", rounded_up(most),
-                       rounded_up(with_it)),
-           "tested on glass, in the mirror direction. Unity's own form has the ¼.");
+  to.judge(
+      "F V ≈ 1/(LoH²(r+0.5))", "", verdict(most < 1.1),
+      fmt::format("off by a factor of up to {}", rounded_up(most)),
+      fmt::format("tested on glass, in the mirror direction. With a ¼, as in Unity's own form, it "
+                  "is off by up to {}.",
+                  rounded_up(with_it)));
 }
 
 }  // namespace

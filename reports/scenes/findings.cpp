@@ -90,9 +90,10 @@ void savings(Findings& to, const ScenesRows& r) {
       fmt::format("In {} scenes, leaving out effects that nobody sees saves up to {} of the time.",
                   of_all(held.size() - none.size() - slower.size(), r.rows.size()), up_to);
   if (!slower.empty())
-    to.headline +=
-        fmt::format(" In {} others, only forms up to {} times as slow are proven accurate enough.",
-                    slower.size(), slowest_of(slower));
+    to.headline += fmt::format(
+        " In {} others, forms that are proven accurate enough take up to {} times as long as cheap "
+        "ones.",
+        slower.size(), slowest_of(slower));
   if (held.size() < r.rows.size())
     to.headline += fmt::format(" In {}, the plan fails its check.", r.rows.size() - held.size());
   to.say(fmt::format(

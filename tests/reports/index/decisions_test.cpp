@@ -93,6 +93,16 @@ TEST(Choose, KeepsTheCheapFormWhereSpreadsDoNotTellThemApart) {
   EXPECT_EQ(choose(all, "cheap", 1)->form, "cheap");
   EXPECT_EQ(choose(all, "cheap", 0.3)->form, "as fast");
 }
+TEST(Choose, KeepsTheUsualFormWhereAnotherSavesLessThanATenth) {
+  EXPECT_EQ(choose(std::vector<Candidate>{{"other", 0.5, 0.95, 0.001}, {"cheap", 0.5, 1, 0.001}},
+                   "cheap", 1)
+                ->form,
+            "cheap");
+  EXPECT_EQ(choose(std::vector<Candidate>{{"other", 0.5, 0.85, 0.001}, {"cheap", 0.5, 1, 0.001}},
+                   "cheap", 1)
+                ->form,
+            "other");
+}
 TEST(Choose, TakesTheNearestOfThoseThatAreAsFastAndOfAllIfNoneIsGood) {
   const std::vector<Candidate> all{{"a", 0.5, 1, 0.1}, {"b", 0.2, 1.1, 0.1}, {"c", 0.1, 3, 0.1}};
   EXPECT_EQ(choose(all, "cheap", 1)->form, "b");
@@ -222,7 +232,7 @@ TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
       << "where all make light, that which makes least";
   EXPECT_EQ(below.unless,
             "energy does not matter: then “Hammon's diffuse for GGX and Smith”, ΔE ≤ 3.5, with up "
-            "to 160\u00a0% of the light reflected (the form taken: 150\u00a0%)");
+            "to 160\u00a0% of the light reflected instead of 150\u00a0%");
 }
 
 TEST(Decisions, ChangeWhereAThresholdIsCrossed) {

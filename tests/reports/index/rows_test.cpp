@@ -239,7 +239,7 @@ TEST(IndexRow, OfDiffuseFormsIsThatOfTheirColoursAndOfWhatTheyReflectBesideALobe
   EXPECT_EQ(below.error, up_to(5.2) + " (Lambert: ΔE ≤ 9)");
   EXPECT_EQ(below.unless,
             "energy does not matter: then “Disney's diffuse”, ΔE ≤ 1, with up to 220\u00a0% of the "
-            "light reflected (the form taken: 140\u00a0%)")
+            "light reflected instead of 140\u00a0%")
       << "the nearest of them, and what it gains";
 }
 
