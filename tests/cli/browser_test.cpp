@@ -231,12 +231,10 @@ void add_reports(Pages& pages) {
   files.facts.precision.push_back(
       {"ggx/smith_ggx.correlated/schlick", "directions", "half", 0.02, 0.2});
   files.facts.setting = Facts::Setting{"a processor", 2, "avx2"};
-  files.pictures.figures = {{"masking_float_avx2_cache",
-                             "Masking",
-                             "",
-                             {"time [ns]", true},
-                             {"RMS", true},
-                             {{"GGX", {0.2, 0.6}, {0.1, 0.01}, FigureCurve::Kind::points}}}};
+  files.facts.masking = {{"masking.schlick_ggx.direct", 0.28}, {"masking.smith_ggx.correlated", 0}};
+  for (const auto& [id, ns] :
+       {std::pair("masking.schlick_ggx.direct", 0.2), {"masking.smith_ggx.correlated", 0.6}})
+    files.facts.in_cache.push_back({id, ns, 0.01});
   add_report(index, "schlick", "Schlick against exact Fresnel", 1500, std::move(files));
   pages.add("index", index_page_html(index));
 }
