@@ -20,7 +20,7 @@ constexpr Pair pairs[] = {
      "masking.smith_ggx.separable"},
     {"Schlick's k = α/2 to exact Smith, correlated", "masking.schlick_ggx.half_alpha",
      "masking.smith_ggx.correlated"},
-    {"Unreal's joint form (Hammon) to exact Smith, correlated", "masking.ue_joint",
+    {"Unreal's joint form to exact Smith, correlated", "masking.ue_joint",
      "masking.smith_ggx.correlated"},
     {"Smith separable to correlated", "masking.smith_ggx.separable",
      "masking.smith_ggx.correlated"},
