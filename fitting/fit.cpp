@@ -130,7 +130,7 @@ struct Judged {
   std::vector<double> seen_against;  ///< standard errors of what a misfit is judged against
   std::size_t angles;                ///< incident angles of the table
   std::size_t clusters;  ///< those whose values share their errors; 0: all are independent
-  const char* in_words;
+  std::string in_words;
 };
 /// \param stated  whether the residuals are in standard errors that the table states
 Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) {
@@ -169,10 +169,8 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
           values.std_errors(),
           angles,
           angles,
-          stated ? "clustered by incident angle (values of one angle may err together), but never "
-                   "below those of the stated uncertainties"
-                 : "clustered by incident angle (values of one angle may err together), but never "
-                   "below those of independent values"};
+          fmt::format("{} (values of one angle may err together), but never below those of {}{}",
+                      clustered, stated ? "the " : "", independent)};
 }
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.
@@ -294,7 +292,7 @@ FitResult fit_and_judge(const Table& t,
   watch.lap("limits_ms");
   for (std::size_t i = 0; i < in_order.size(); ++i)
     if (u[i].reason.empty()) u[i].reason = in_order[i];
-  const char* in_words = judged.in_words;
+  std::string in_words = judged.in_words;
   if (o.intervals == Intervals::bootstrap) {
     announce("fits of tables drawn from this one");
     if (bootstrap(sampling_of(bins, false), p, f, shared, lack, judged.seen_against, u))

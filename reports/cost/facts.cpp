@@ -1,4 +1,4 @@
-// What the index decides by: times of terms and of whole models in cache.
+// Facts of the cost report for the index: times of terms and of whole models in cache.
 #include "reports/cost/cost.h"
 
 namespace gonio {

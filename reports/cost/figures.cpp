@@ -96,19 +96,14 @@ void add_rows_pictures(Pictures& to, const CostRows& report) {
 /// Forms for metals, which have two truths, against the exact conductor.
 void add_metals(Pictures& to, const CostRows& report) {
   std::vector<FrontDot> dots;
-  std::vector<TimedError> places;
   for (const auto& [form, rms] : report.metals) {
     const auto* r =
         find_row(report.rows, form, "float", report.machine.instruction_sets.back(), "cache");
     if (!r || is_mistake(*r)) continue;
     const bool exact = r->error.truth == r->id;  // but for what float rounds
-    places.push_back(drawn(*r, exact ? std::max(rms, r->error.rms) : rms));
-    dots.push_back({brief_name(form), places.back()});
+    dots.push_back({brief_name(form), drawn(*r, exact ? std::max(rms, r->error.rms) : rms)});
   }
-  for (std::size_t i = 0; i < dots.size(); ++i) {
-    const auto place = front_place(places, i);
-    dots[i].front = place.on_line;
-  }
+  mark_front(dots);
   if (dots.empty()) return;
   to.figures.push_back(
       {"fresnel_metals",

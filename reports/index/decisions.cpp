@@ -78,7 +78,7 @@ std::string cost_text(const Candidate& taken, const Candidate& cheap) {
   if (!d.survives) return "none measured";
   return (d.ns < 0 ? "−" : "+") + ns_text(d.ns);
 }
-/// What to take instead where time is what lacks, and what it leaves.
+/// Names the form to take if time is short, and its error.
 std::string cheaper_text(const Candidate& cheaper, std::string_view left) {
   return fmt::format("time is short: then {}, {}", name_of_form(cheaper.form), left);
 }

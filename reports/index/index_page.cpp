@@ -70,14 +70,11 @@ std::vector<Facts::Fresnel> fresnel_grid(const ReportIndex& index) {
 /// Masking's accuracy against its time, by what the decision on masking reads; empty where no report has both.
 Pictures masking_front(const Facts& facts) {
   std::vector<FrontDot> dots;
-  std::vector<TimedError> places;
   for (const auto& m : facts.masking)
-    if (const auto* t = time_of(facts.in_cache, m.form)) {
-      places.push_back({{t->ns, t->spread}, m.rms, t->each});
-      dots.push_back({name_of_form(m.form), places.back()});
-    }
+    if (const auto* t = time_of(facts.in_cache, m.form))
+      dots.push_back({name_of_form(m.form), {{t->ns, t->spread}, m.rms, t->each}});
   if (dots.empty()) return {};
-  for (std::size_t i = 0; i < dots.size(); ++i) dots[i].front = front_place(places, i).on_line;
+  mark_front(dots);
   auto f = make_figure("masking");
   f.title = "Masking: time against error";
   f.x = {"time of one sample [ns]", true};
@@ -114,7 +111,8 @@ inline constexpr auto description<ClaimOf> = FieldList{
     Field{"judged", [](const ClaimOf& c) { return name_of(c.claim->judged); },
           "holds, holds in part, does not hold"},
     Field{"figure", [](const ClaimOf& c) { return c.claim->figure; }, "the one that decides"},
-    Field{"verdict", [](const ClaimOf& c) { return c.claim->verdict; }, "sentence with figures"},
+    Field{"verdict", [](const ClaimOf& c) { return c.claim->verdict; },
+          "sentences on what was tested; may be empty"},
     Field{"anchor", [](const ClaimOf& c) { return c.claim->anchor; }, "of the report's page"}};
 template <>
 inline constexpr auto description<Decision> =

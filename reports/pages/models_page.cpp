@@ -82,24 +82,20 @@ std::vector<std::size_t> by_error(const ModelChoice& choice) {
 Figure error_and_time(const ModelChoice& choice,
                       const Advice& advice,
                       const std::vector<std::size_t>& order) {
-  std::vector<TimedError> places;
-  std::vector<std::size_t> shown;
-  for (const std::size_t k : order)
-    if (const double error = error_of(choice, choice.rows[k]); !std::isnan(error)) {
-      places.push_back({{choice.rows[k].ns, choice.rows[k].ns_spread}, error});
-      shown.push_back(k);
-    }
   std::vector<FrontDot> all, recommended, as_good, others;
+  std::vector<std::size_t> shown;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const auto& row = choice.rows[order[i]];
+    if (const double error = error_of(choice, row); !std::isnan(error)) {
+      all.push_back({fmt::to_string(i + 1), {{row.ns, row.ns_spread}, error}});
+      shown.push_back(order[i]);
+    }
+  }
+  mark_front(all);
   for (std::size_t i = 0; i < shown.size(); ++i) {
-    const auto place = front_place(places, i);
     const auto& model = choice.rows[shown[i]].model;
-    const auto number = std::ranges::find(order, shown[i]) - order.begin() + 1;
-    all.push_back({fmt::to_string(number), places[i], place.on_line});
     const bool is_as_good = std::ranges::find(advice.as_good, model) != advice.as_good.end();
-    (model == advice.recommended ? recommended
-     : is_as_good                ? as_good
-                                 : others)
-        .push_back(all.back());
+    (model == advice.recommended ? recommended : is_as_good ? as_good : others).push_back(all[i]);
   }
   Figure f = make_figure("error_and_time");
   f.title = "Error left against time";

@@ -22,6 +22,12 @@ FrontPlace front_place(std::span<const TimedError> rivals, std::size_t form) {
   return place;
 }
 
+void mark_front(std::span<FrontDot> dots) {
+  std::vector<TimedError> places;
+  for (const auto& d : dots) places.push_back(d.at);
+  for (std::size_t i = 0; i < dots.size(); ++i) dots[i].front = front_place(places, i).on_line;
+}
+
 FigureCurve front_points(std::string name, std::span<const FrontDot> dots) {
   FigureCurve c;
   c.name = std::move(name);

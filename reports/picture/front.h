@@ -39,6 +39,8 @@ struct FrontDot {
   TimedError at;
   bool front = false;  ///< the line through the front goes through it
 };
+/// Sets `front` of each by the others.
+void mark_front(std::span<FrontDot>);
 /// Points, with the spread of their times.
 FigureCurve front_points(std::string name, std::span<const FrontDot>);
 /// Dashed line through those on the front, from the fast to the slow; none through fewer than two.

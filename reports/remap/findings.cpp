@@ -100,8 +100,8 @@ void verdict_on_k(Findings& to, const RemapRows& r) {
 }
 
 /// "13 % less"
-std::string beside(double ratio) {
-  return fmt::format("{} {}", percent(std::abs(ratio - 1), 2), ratio < 1 ? "less" : "more");
+std::string beside(double ratio, std::string_view below = "less", std::string_view above = "more") {
+  return fmt::format("{} {}", percent(std::abs(ratio - 1), 2), ratio < 1 ? below : above);
 }
 
 /// Each k where the other is meant to be.
@@ -128,20 +128,15 @@ void wrong_place(Findings& to, const RemapRows& r) {
                       k, beside(use->value / use->correlated), of, rough, mu));
 }
 
-/// "13 % darker"
-std::string darker(double ratio) {
-  return fmt::format("{} {}", percent(std::abs(ratio - 1), 2), ratio < 1 ? "darker" : "brighter");
-}
-
 /// 'k = α/2 is too bright at grazing angles', and what is taken in its place.
 void verdict_on_g1(Findings& to, const RemapRows& r) {
   if (r.g1.size() < 2) return;
   const auto &half = r.g1[0], &remapped = r.g1[1];
-  to.judge(
-      "k = α/2 is too bright at grazing angles", "", verdict(half.value > half.smith),
-      fmt::format("{} than exact Smith at NoV {:g}", darker(half.value / half.smith), half.nov),
-      fmt::format("at roughness {:g} G1 is {:.3f}, exactly {:.3f}.", half.roughness, half.value,
-                  half.smith));
+  to.judge("k = α/2 is too bright at grazing angles", "", verdict(half.value > half.smith),
+           fmt::format("{} than exact Smith at NoV {:g}",
+                       beside(half.value / half.smith, "darker", "brighter"), half.nov),
+           fmt::format("at roughness {:g} G1 is {:.3f}, exactly {:.3f}.", half.roughness,
+                       half.value, half.smith));
   to.judge("with k = (r+1)²/8 the edge is 72 % darker, like that of a medium roughness", "",
            verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith,
                    std::abs(1 - remapped.value - 0.72) < 0.005),

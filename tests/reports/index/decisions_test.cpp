@@ -233,6 +233,10 @@ TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
   EXPECT_EQ(below.unless,
             "energy does not matter: then “Hammon's diffuse for GGX and Smith”, ΔE ≤ 3.5, with up "
             "to 160\u00a0% of the light reflected instead of 150\u00a0%");
+  f.diffuse[4].below_lobe = 6;
+  EXPECT_EQ(about(decisions(f), "Diffuse below a lobe").error,
+            "ΔE ≤ 5 (Lambert: ΔE ≤ 9); lobe and diffuse reflect up to 150\u00a0% of the light")
+      << "nothing nearer makes more, and what it makes is still said";
 }
 
 TEST(Decisions, ChangeWhereAThresholdIsCrossed) {

@@ -244,9 +244,14 @@ TEST(RemapReport, WhatLacksAQuarterIsFourTimesAsMuch) {
   auto r = of({unity}, {0.5});
   const auto figure = [&] { return findings(r).claims.back().figure; };
   for (auto& v : r.vf) v.least = v.most = 1;
+  const auto with_quarter = [&](std::string_view factor) {
+    return findings(r).claims.back().verdict.ends_with(fmt::format("is off by up to {}.", factor));
+  };
   EXPECT_EQ(figure(), "off by a factor of up to 4");
+  EXPECT_TRUE(with_quarter("1"));
   for (auto& v : r.vf) v.least = 0.09, v.most = 1.8, v.factor = 3;
   EXPECT_EQ(figure(), "off by a factor of up to 7.2") << "not the RMS factor";
+  EXPECT_TRUE(with_quarter("12"));
 }
 
 TEST(RemapReport, NamesOfTwoFormsOfTheSameValuesTheOneOfFewerOperations) {
