@@ -164,13 +164,8 @@ Judged judge(const Sampling& s, const Problem& p, const Fitted& f, bool stated) 
     return {std::move(a), u, u.std_errors(), angles, angles, clustered};
   const auto values = errors(by_value(), stated);
   if (angles < 2) return {std::move(a), values, values.std_errors(), angles, 0, independent};
-  return {std::move(a),
-          wider(std::move(u), values),
-          values.std_errors(),
-          angles,
-          angles,
-          fmt::format("{} (values of one angle may err together), but never below those of {}{}",
-                      clustered, stated ? "the " : "", independent)};
+  return {std::move(a), wider(std::move(u), values), values.std_errors(), angles, angles,
+          clustered};
 }
 
 /// Refuses a person's function that has no value where the table has one: no number of such a fit means anything.

@@ -72,9 +72,11 @@ Exit run(const ExploreCall& o) {
   }
   for (const auto& e : all)
     if (const auto* t = std::get_if<ExploredTable>(&e))
-      say("{}: {} values; resampled for the page, typically off by ×/÷ {:.3f}; its grid covers "
-          "{:.0f} % of the values\n",
-          t->name, t->values, t->loss, 100 * t->covered);
+      say("{}: {} values; resampled for the spheres, typically off by ×/÷ {:.3f}{}\n", t->name,
+          t->values, t->loss,
+          t->covered < 1
+              ? fmt::format("; {:.1f} % of the values have no place there", 100 * (1 - t->covered))
+              : "");
   say("{}: open it in a browser\n", o.output);
   return Exit::done;
 }

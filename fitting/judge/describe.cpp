@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "brdf/model/roughness.h"
 
@@ -21,10 +22,10 @@ void describe(FitDocument& d,
               std::span<const double> values,
               const Uncertainty& u) {
   for (const auto& q : p.start.model.parameters) {
-    FittedParameter e{q.name, {}, {}, {}, {}, {}, {}, {}};
+    FittedParameter e{q.name, {}, {}, {}, {}, {}, {}, {}, {}};
     for (std::size_t s = q.first; s < q.first + q.count; ++s) {
       double value = values[s], error = not_known, low = not_known, high = not_known,
-             limit = not_known;
+             limit = not_known, excluded = not_known;
       std::string reason;
       auto status = ParameterStatus::fixed;
       if (p.free.mask()[s]) {
@@ -36,7 +37,7 @@ void describe(FitDocument& d,
         limit = v.limit;
         reason = v.reason;
         if (status == ParameterStatus::not_identifiable) value = error = not_known;
-        if (status == ParameterStatus::upper_limit && value > limit) value = not_known;
+        if (status == ParameterStatus::upper_limit && value > limit) std::swap(excluded, value);
       }
       e.value.push_back(value);
       e.std_error.push_back(error);
@@ -45,13 +46,15 @@ void describe(FitDocument& d,
       if (std::isnan(error)) e.ci95_low.back() = e.ci95_high.back() = not_known;
       e.status.push_back(status);
       e.limit.push_back(limit);
+      e.excluded.push_back(excluded);
       e.reason.push_back(std::move(reason));
     }
     d.parameters.push_back(e);
     if (!is_alpha(q.name)) continue;
     FittedParameter r = e;
     r.name = roughness_name(q.name);
-    for (auto* v : {&r.value, &r.ci95_low, &r.ci95_high, &r.limit}) (*v)[0] = roughness_of((*v)[0]);
+    for (auto* v : {&r.value, &r.ci95_low, &r.ci95_high, &r.limit, &r.excluded})
+      (*v)[0] = roughness_of((*v)[0]);
     r.std_error[0] = roughness_error(r.value[0], e.std_error[0]);
     d.parameters.push_back(r);
   }

@@ -158,7 +158,7 @@ void leave_scale_open(FitDocument& d, BoundModel& fitted, double factor) {
       if (p.status[c] != ParameterStatus::not_identifiable)
         p.reason[c] = "only up to one factor: the scale is free";
       p.status[c] = ParameterStatus::not_identifiable;
-      for (auto* x : {&p.value, &p.std_error, &p.ci95_low, &p.ci95_high, &p.limit})
+      for (auto* x : {&p.value, &p.std_error, &p.ci95_low, &p.ci95_high, &p.limit, &p.excluded})
         (*x)[c] = not_known;
     }
   }

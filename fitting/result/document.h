@@ -39,6 +39,7 @@ struct FittedParameter {
   std::vector<double> limit = {};  ///< one-sided 95 % bound of an upper or lower limit
   std::vector<std::string> reason =
       {};  ///< why there is no value, interval or limit, or what fixed its order; else empty
+  std::vector<double> excluded = {};  ///< value of the fit, where it lies beyond `limit`
 };
 
 struct FitSolver {

@@ -26,6 +26,8 @@ inline constexpr auto description<FittedParameter> =
               Field{"status", per_channel(&FittedParameter::status), ""},
               Field{"limit", per_channel(&FittedParameter::limit),
                     "one-sided 95 % bound where the status is upper_limit or lower_limit"},
+              Field{"excluded", per_channel(&FittedParameter::excluded),
+                    "value of the fit where `limit` excludes it, and so no `value`; else null"},
               Field{"reason", per_channel(&FittedParameter::reason),
                     "why no more is known, or what fixed its order; else empty"}};
 

@@ -35,9 +35,10 @@ void schlick_beside_joint(Findings& to, const CostRows& r) {
   };
   to.judge("Schlick's masking costs a bit more than the joint approximation", "",
            verdict(longer_than(*joint), longer_than(*plain)),
-           fmt::format("Schlick's {}, joint {}{}, joint with a clamp {}{}", ns(schlick->time),
-                       ns(plain->time), is_tie(*schlick, *plain) ? " (a tie)" : "", ns(joint->time),
-                       is_tie(*schlick, *joint) ? " (a tie)" : ""),
+           fmt::format("Schlick's {}, joint {}{} in Unreal's code, {}{} with its clamp",
+                       ns(schlick->time), ns(plain->time),
+                       is_tie(*schlick, *plain) ? " (within the spreads)" : "", ns(joint->time),
+                       is_tie(*schlick, *joint) ? " (within the spreads)" : ""),
            "times are in float, from cache.");
 }
 
@@ -50,7 +51,7 @@ void exact_is_slow(Findings& to, const CostRows& r) {
                whole = exact_model->time.ns / model->time.ns;
   to.judge("the exact Fresnel equations are slow", "",
            verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
-           fmt::format("{:.1f} times Schlick's time, {:.2f} times in a whole model", term, whole),
+           fmt::format("exact takes {:.1f} times Schlick's time", term),
            "the equations are those of a dielectric, and the model is GGX, composed of its terms. "
            "Both are timed in float, from cache.");
 }

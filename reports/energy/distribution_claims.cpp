@@ -56,8 +56,8 @@ void phong_is_beckmann(Findings& to, const EnergyRows& r) {
   to.judge("Phong and Beckmann are equivalent by the exponent 2α⁻² − 2",
            "the exponent that Walter et al. 2007 recommend",
            verdict(rough.share < 0.01, smooth.share < 0.01),
-           fmt::format("at roughness {:g} they differ by {} of the facets' projected area",
-                       rough.roughness, percent(rough.share, 2)),
+           fmt::format("{} of the facets' area is distributed differently at roughness {:g}",
+                       percent(rough.share, 2), rough.roughness),
            fmt::format("at roughness {:g} they differ by {}.", smooth.roughness,
                        percent(smooth.share, 2)));
 }
@@ -69,7 +69,7 @@ void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {
   };
   const auto low = of("riemann"), middle = of("riemann_midpoint"), end = r.light.irradiance.end();
   if (low == end || middle == end) return;
-  to.judge("irradiance is a Riemann sum, divided by its samples", "",
+  to.judge("irradiance is a Riemann sum, divided by the number of samples", "",
            verdict_on_small(std::abs(low->bias)),
            fmt::format("the sum is off by {} at {} samples", percent(low->bias, 2), low->samples),
            fmt::format("with more samples the error vanishes. The sky is brighter towards the "

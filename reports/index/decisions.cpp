@@ -21,7 +21,7 @@ using Candidates = std::vector<Candidate>;
 
 constexpr std::string_view schlick = "fresnel.schlick", direct = "masking.schlick_ggx.direct",
                            correlated = "masking.smith_ggx.correlated", single = "single",
-                           precision_model = "ggx/smith_ggx.correlated/schlick";
+                           usual_model = "ggx/smith_ggx.correlated/schlick";
 
 /// Time that `to` takes more than `from`, which are candidates or times.
 template <class Timed>
@@ -40,9 +40,13 @@ const Candidate* find(const Candidates& all, std::string_view form) {
   return at == all.end() ? nullptr : &*at;
 }
 /// It saves a part of the other's time for which one leaves a form.
-bool saves_enough(const Candidate& a, const Candidate& b) {
+bool saves_enough(const Candidate& a, const Candidate& b, double whole_ns = 0) {
   constexpr double worth = 0.1;
-  return is_clearly_cheaper(a, b) && more(a, b).ns > worth * b.ns;
+  return is_clearly_cheaper(a, b) && more(a, b).ns > worth * std::max(whole_ns, b.ns);
+}
+double whole_model_ns(const Facts& f) {
+  const auto* t = time_of(f.whole, usual_model);
+  return t ? t->ns : 0;
 }
 /// The nearest of those that save a part of what is taken that is worth an error; the first of those that are as near.
 const Candidate* nearest_cheaper(const Candidates& all, const Candidate& taken) {
@@ -89,7 +93,8 @@ void masking(std::vector<Decision>& to, const Facts& f) {
   Candidates all;
   for (const auto& m : f.masking)
     if (const auto* t = time_of(f.in_cache, m.form)) all.push_back(candidate(m.form, m.rms, *t));
-  const auto *cheap = find(all, direct), *taken = choose(all, direct, small_masking_error);
+  const auto *cheap = find(all, direct),
+             *taken = choose(all, direct, small_masking_error, whole_model_ns(f));
   if (!cheap || !taken) return;
   const auto rms = [](const Candidate& c) {
     return fmt::format("RMS error {:.2g} in G₂", c.error);
@@ -115,7 +120,7 @@ void masking(std::vector<Decision>& to, const Facts& f) {
 /// Materials that were measured, by the fits that were published of them: what a tail other than GGX's costs, and gains.
 void distribution(std::vector<Decision>& to, const Facts& f) {
   // A distribution by itself writes a fraction, which a whole model divides once with its masking.
-  const auto *ggx = time_of(f.whole, "ggx/smith_ggx.correlated/schlick"),
+  const auto *ggx = time_of(f.whole, usual_model),
              *gtr = time_of(f.whole, "gtr/smith_gtr.correlated/schlick");
   if (!ggx || !gtr || !f.tails) return;
   const auto& t = *f.tails;
@@ -199,7 +204,7 @@ std::string seen_side_by_side(const Facts& f,
   for (const auto& m : materials) {
     if (m.delta_e <= just_seen) continue;
     const auto all = fresnel_candidates(f, kind, {m});
-    const auto* better = choose(all, schlick, just_seen);
+    const auto* better = choose(all, schlick, just_seen, whole_model_ns(f));
     const auto form = better && better->error <= just_seen ? better->form : std::string();
     auto at = std::ranges::find(by_form, form, &Helps::form);
     if (at == by_form.end()) at = by_form.insert(at, {form});
@@ -226,7 +231,8 @@ void fresnel_of(std::vector<Decision>& to,
                 bool is_all,
                 bool is_rest) {
   const auto all = fresnel_candidates(f, kind, materials);
-  const auto *cheap = find(all, schlick), *taken = choose(all, schlick, side_by_side);
+  const auto *cheap = find(all, schlick),
+             *taken = choose(all, schlick, side_by_side, whole_model_ns(f));
   if (!cheap || !taken) return;
   const std::string kinds = kind == "metal" ? "metals" : "dielectrics";
   const auto names = materials_text(materials);
@@ -286,11 +292,12 @@ std::optional<double> seen_from(const Facts::Scattering& s) {
   return {};
 }
 
-/// Greatest ΔE2000 of a form at roughnesses below one.
-double most_below(const Facts::Scattering& way, double roughness) {
+/// Greatest ΔE2000 of a form at roughnesses from one on, below another.
+double most_between(const Facts::Scattering& way, double from, double below) {
   double most = 0;
   for (std::size_t i = 0; i < way.roughness.size(); ++i)
-    if (way.roughness[i] < roughness) most = std::max(most, way.delta_e[i]);
+    if (!(way.roughness[i] < from) && way.roughness[i] < below)
+      most = std::max(most, way.delta_e[i]);
   return most;
 }
 /// Compensation from a roughness on, below which nothing is done: where it shows and is nearer than nothing.  No value where what it
@@ -305,32 +312,34 @@ std::optional<Compensated> compensated(const Facts::Scattering& way,
                                        const Facts::Scattering& nothing) {
   const auto nearer = nearer_from(way, nothing), seen = seen_from(nothing);
   if (!nearer || !seen) return {};
-  Compensated c{std::max(*nearer, *seen), 0, 0};
-  c.below = most_below(nothing, c.from);
-  for (std::size_t i = 0; i < way.roughness.size(); ++i)
-    if (!(way.roughness[i] < c.from)) c.error = std::max(c.error, way.delta_e[i]);
+  const double from = std::max(*nearer, *seen);
+  const Compensated c{from, most_between(nothing, 0, from), most_between(way, from, HUGE_VAL)};
   if (std::ranges::max(nothing.delta_e) - c.both() < just_seen) return {};
   return c;
 }
 
-/// The form for surfaces smoother than those that a compensation is used on: another compensation, or one bounce.
+/// The compensation for surfaces smoother than those that `pays` is used on.
 struct Below {
   const Facts::Compensation* form = nullptr;  ///< null: one bounce
-  double error;                               ///< greatest ΔE2000
+  double from = 0;
+  double error;  ///< greatest ΔE2000 of all surfaces smoother than those
 };
-/// Returns the form other than `taken` that leaves least there; one bounce, if nobody sees what it leaves or what another gains.
+/// Returns the one that leaves least there, with one bounce below its own start; one bounce, if nobody sees what that leaves or what
+/// a compensation gains.
 Below nearest_below(const Facts& f,
-                    std::string_view taken,
+                    const std::map<std::string, Compensated>& used,
                     const Facts::Scattering& nothing,
                     const Compensated& pays) {
-  Below best{nullptr, pays.below};
+  Below best{nullptr, 0, pays.below};
   if (!(pays.below > side_by_side)) return best;
   double least = pays.below - just_seen;
   for (const auto& c : f.compensations)
-    if (const auto* way = scattering_of(f, c.id, nothing.f0, nothing.of_image_light);
-        way && c.id != taken && c.of_image_light == nothing.of_image_light)
-      if (const double error = most_below(*way, pays.from); error < least)
-        best = {&c, least = error};
+    if (const auto at = used.find(c.id); at != used.end() && at->second.from < pays.from) {
+      const auto* way = scattering_of(f, c.id, nothing.f0, nothing.of_image_light);
+      const double from = at->second.from,
+                   error = std::max(at->second.below, most_between(*way, from, pays.from));
+      if (error < least) best = {&c, from, least = error};
+    }
   return best;
 }
 
@@ -349,6 +358,8 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
       }
   const auto* taken = choose(all, single, side_by_side);
   const auto* other = nearest_cheaper(all, *taken);
+  const auto timed =
+      std::ranges::find(f.compensations, of_image_light, &Facts::Compensation::of_image_light);
   Decision d{fmt::format("Multiple scattering under {}, F0 {:g} ({})",
                          of_image_light ? "image-based light" : "single lights", f0,
                          f0 == bright ? "bright metal"
@@ -357,14 +368,22 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
              "One bounce",
              "scattering." + taken->form,
              delta_at_most(taken->error),
-             std::string(no_more),
+             timed == f.compensations.end()
+                 ? std::string(no_more)
+                 : fmt::format("{} (the usual form)", ns_text(timed->without_ns)),
              {}};
+  const auto from = [](const Compensated& c) {
+    return fmt::format("for roughness {:g} or more", c.from);
+  };
   if (taken->form != single) {
     const auto costs = std::ranges::find(f.compensations, taken->form, &Facts::Compensation::id);
     const auto& pays = used.at(taken->form);
-    const auto below = nearest_below(f, taken->form, *nothing, pays);
-    d.take = fmt::format("{} from roughness {:g} on, {} below", name_of_form(taken->form),
-                         pays.from, below.form ? name_of_form(below.form->id) : "one bounce");
+    const auto below = nearest_below(f, used, *nothing, pays);
+    d.take =
+        fmt::format("{} {}, {}otherwise one bounce", name_of_form(taken->form), from(pays),
+                    below.form ? fmt::format("{} for {:g} to {:g}, ", name_of_form(below.form->id),
+                                             below.from, pays.from)
+                               : "");
     d.error = fmt::format("{} (one bounce: {})", delta_at_most(std::max(pays.error, below.error)),
                           at_most(without));
     d.cost = fmt::format("{} {}{} (one bounce: {})", name_of_form(taken->form),
@@ -375,8 +394,8 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
                          ns_text(costs->without_ns));
   }
   if (other && other->form != single)
-    d.unless = fmt::format("time is short: then {} from roughness {:g} on, one bounce below, {}",
-                           name_of_form(other->form), used.at(other->form).from,
+    d.unless = fmt::format("time is short: then {} {}, otherwise one bounce, {}",
+                           name_of_form(other->form), from(used.at(other->form)),
                            delta_at_most(other->error));
   to.push_back(std::move(d));
 }
@@ -394,16 +413,17 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
                                               at_most(*s.from_side))
                                 : fmt::format("RMS {:.1g} of E", s.rms),
        s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
-       s.grazing ? fmt::format(
-                       "the rim matters (mean ΔE {} at cosine 0.1): then integrate over directions",
-                       at_most(*s.grazing))
-                 : ""});
+       s.grazing
+           ? fmt::format(
+                 "the rim matters, which is off by mean ΔE {}: then integrate over directions",
+                 at_most(*s.grazing))
+           : ""});
 }
 
 /// Diffuse terms by how they look at equal albedo: matte surfaces beside EON, and what lies below a lobe beside EON coupled by albedos.
 void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
   constexpr std::string_view cheap_id = "diffuse.lambert";
-  Candidates all, brighter;  // brighter: that make more light than the others
+  Candidates all;
   const auto form_of = [&](std::string_view id) {
     return std::ranges::find(f.diffuse, id, &Facts::Diffuse::id);
   };
@@ -418,34 +438,25 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
     const auto* t = time_of(f.in_cache, d.id);
     const bool is_reference = !below_lobe && d.id == "diffuse.eon";
     const auto& off = below_lobe ? d.below_lobe : d.matte;
-    if (t && (off || is_reference))
-      (most_light(d) <= std::max(no_light_made, least) ? all : brighter)
-          .push_back(candidate(d.id, is_reference ? 0 : *off, *t));
+    if (t && (off || is_reference) && most_light(d) <= std::max(no_light_made, least))
+      all.push_back(candidate(d.id, is_reference ? 0 : *off, *t));
   }
-  const auto* taken = choose(all, cheap_id, side_by_side);
+  const auto* taken = choose(all, cheap_id, side_by_side, whole_model_ns(f));
   const auto lambert = form_of(cheap_id);
   const auto* time = time_of(f.in_cache, cheap_id);
   if (!taken || lambert == f.diffuse.end() || !time) return;
   const auto cheap = candidate(std::string(cheap_id), 0, *time);
   const auto& own = below_lobe ? lambert->below_lobe : lambert->matte;
-  const auto made = [&](const Facts::Diffuse& d) { return percent_at_most(most_light(d), 4); };
   Decision d{below_lobe ? "Diffuse below a lobe (F0 0.04)" : "Diffuse of matte surfaces",
              name_of_form(taken->form),
              taken->form,
              is_exact(*taken) ? "none" : delta_at_most(taken->error),
              cost_text(*taken, cheap),
              ""};
+  if (const double made = most_light(*form_of(taken->form)); below_lobe && made > no_light_made)
+    d.error += fmt::format(", energy gain ≤ {}", percent_at_most(made - 1, 2));
   if (taken->form != cheap_id && own)
     d.error = fmt::format("{} (Lambert: {})", d.error, delta_at_most(*own));
-  const auto nearer = std::ranges::min_element(brighter, {}, &Candidate::error);
-  if (below_lobe && nearer != brighter.end() && nearer->error < taken->error)
-    d.unless = fmt::format(
-        "energy does not matter: then “{}”, {}, with up to {} of the light reflected instead of {}",
-        in_text(nearer->form), delta_at_most(nearer->error), made(*form_of(nearer->form)),
-        made(*form_of(taken->form)));
-  else if (below_lobe && most_light(*form_of(taken->form)) > no_light_made)
-    d.error += fmt::format("; lobe and diffuse reflect up to {} of the light",
-                           made(*form_of(taken->form)));
   to.push_back(std::move(d));
 }
 
@@ -463,31 +474,32 @@ const Facts::Precision* precision_of(const Facts& f,
 
 /// A whole highlight: D in itself keeps its digits where D V F is already infinite.
 void precision(std::vector<Decision>& to, const Facts& f) {
-  const auto *half = precision_of(f, precision_model, "directions", "half"),
+  const auto *half = precision_of(f, usual_model, "directions", "half"),
              *own = precision_of(f, "ndf.ggx", "cross", "half, flushed"),
              *kept = precision_of(f, "ndf.ggx", "cross", "half");
   if (!half || !own || !own->safe_from) return;
   if (!half->safe_from) {
-    to.push_back({"Precision: D V F NoL of GGX in half", "float instead", "ndf.ggx",
+    to.push_back({"Precision: D V F NoL of GGX in half precision", "float instead", "ndf.ggx",
                   "none (half keeps its digits from no α on)", "", ""});
     return;
   }
-  to.push_back({fmt::format("Precision: a GGX highlight in half (on metal, F0 {:g} or more)",
-                            half->least_f0),
-                fmt::format("sin² θ_h from |n × h|², α clamped to at least {}",
-                            rounded_up(*half->safe_from)),
-                "ndf.ggx",
-                fmt::format("≤ {} of its value in double (found by a search over angles up to "
-                            "{:.0f}°, with cosines in half)",
-                            percent(half->tolerance, 2), half->zenith_deg),
-                fmt::format("surfaces below roughness {0} look like {0}",
-                            rounded_up(std::sqrt(*half->safe_from))),
-                fmt::format("only D is in half: then α clamped to at least {}{}",
-                            rounded_up(*own->safe_from),
-                            kept && kept->safe_from
-                                ? fmt::format(", or to {} where the processor keeps subnormals",
-                                              rounded_up(*kept->safe_from))
-                                : "")});
+  to.push_back(
+      {fmt::format("Precision: a GGX highlight in half precision (on metal, F0 {:g} or more)",
+                   half->least_f0),
+       fmt::format("sin² θ_h from |n × h|², α clamped to at least {}",
+                   rounded_up(*half->safe_from)),
+       "ndf.ggx",
+       fmt::format("off by ≤ {} (found by a search over angles up to "
+                   "{:.0f}°, with cosines in half precision)",
+                   percent(half->tolerance, 2), half->zenith_deg),
+       fmt::format("surfaces below roughness {0} look like {0}",
+                   rounded_up(std::sqrt(*half->safe_from))),
+       fmt::format("only D is in half precision: then α clamped to at least {}{}",
+                   rounded_up(*own->safe_from),
+                   kept && kept->safe_from
+                       ? fmt::format(", or to {} where the processor keeps subnormals",
+                                     rounded_up(*kept->safe_from))
+                       : "")});
 }
 
 }  // namespace
@@ -497,7 +509,10 @@ const Facts::Time* time_of(const std::vector<Facts::Time>& times, std::string_vi
   return at == times.end() ? nullptr : &*at;
 }
 
-const Candidate* choose(std::span<const Candidate> all, std::string_view cheap, double enough) {
+const Candidate* choose(std::span<const Candidate> all,
+                        std::string_view cheap,
+                        double enough,
+                        double whole_ns) {
   const Candidate *nearest = nullptr, *cheapest = nullptr;
   for (const auto& c : all) {
     if (!nearest || c.error < nearest->error) nearest = &c;
@@ -506,7 +521,7 @@ const Candidate* choose(std::span<const Candidate> all, std::string_view cheap, 
   if (!cheapest) return nearest;
   const Candidate* taken = cheapest;
   for (const auto& c : all) {
-    if (c.error > enough || saves_enough(*cheapest, c)) continue;
+    if (c.error > enough || saves_enough(*cheapest, c, whole_ns)) continue;
     if (c.form == cheap) return &c;
     if (c.error < taken->error) taken = &c;
   }

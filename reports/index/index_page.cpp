@@ -1,6 +1,7 @@
 #include "reports/index/index_page.h"
 
 #include <algorithm>
+#include <cmath>
 #include <ctime>
 #include <utility>
 
@@ -67,11 +68,17 @@ std::vector<Facts::Fresnel> fresnel_grid(const ReportIndex& index) {
   return out;
 }
 
-/// Masking's accuracy against its time, by what the decision on masking reads; empty where no report has both.
+/// Masking's accuracy against its time, by what the decision on masking reads; of several ways to write one formula the first, which has
+/// the fewest operations.  Empty where no report has both.
 Pictures masking_front(const Facts& facts) {
   std::vector<FrontDot> dots;
+  const auto is_same = [](const Facts::Masking& a, const Facts::Masking& b) {
+    return std::abs(a.rms - b.rms) <= same_error * b.rms;
+  };
   for (const auto& m : facts.masking)
-    if (const auto* t = time_of(facts.in_cache, m.form))
+    if (const auto* t = time_of(facts.in_cache, m.form);
+        t &&
+        &m == &*std::ranges::find_if(facts.masking, [&](const auto& x) { return is_same(x, m); }))
       dots.push_back({name_of_form(m.form), {{t->ns, t->spread}, m.rms, t->each}});
   if (dots.empty()) return {};
   mark_front(dots);
@@ -226,10 +233,11 @@ std::vector<Part> lead(const ReportIndex& i) {
                         m->cpu.empty() ? "this machine" : m->cpu, m->isa);
   cost += ".";
   if (const auto* whole = time_of(i.facts.whole, "ggx/smith_ggx.correlated/schlick"))
-    cost += fmt::format(" A whole model, GGX composed of its terms, takes {} ns.",
-                        significant(whole->ns, 2));
+    cost +=
+        fmt::format(" A whole GGX model, with height-correlated Smith and Schlick, takes {} ns.",
+                    significant(whole->ns, 2));
   cost +=
-      " Rows of multiple scattering and the split sum show total times instead, which compare only "
+      " Times of multiple scattering and the split sum are totals, to be compared only "
       "within a row.";
   if (m && m->others && *m->others >= 0.25)
     cost += fmt::format(
@@ -246,9 +254,9 @@ std::vector<Part> lead(const ReportIndex& i) {
             "lead"},
       Pairs{
           {{"Error left",
-            {"The distance to exact Fresnel, to height-correlated Smith masking and to all bounces "
-             "of light. Diffuse forms are compared with energy-preserving Oren–Nayar (EON). Under "
-             "a specular lobe, EON is scaled by the light that the lobe lets through."}},
+            {"How far a form is from its reference: exact Fresnel, height-correlated Smith "
+             "masking, light with all its bounces, or energy-preserving Oren–Nayar (EON). Under a "
+             "specular lobe, EON is scaled by the light that the lobe lets through."}},
            {"Costs", {cost}},
            {"Usual forms",
             {"Schlick's Fresnel, Schlick's masking with k = (r+1)²/8, GGX, one bounce, "
@@ -360,8 +368,9 @@ std::string index_page_html(const ReportIndex& i) {
   if (!front.figures.empty())
     out.sections.push_back(
         {"What masking's accuracy costs",
-         std::string("The error of G₂ against height-correlated Smith, over the time of one "
-                     "sample. The dashed line joins the forms that no other beats in both. ") +
+         std::string(
+             "Vertical: the error of G₂ to height-correlated Smith. Horizontal: the time of "
+             "one sample. The dashed line joins the forms that no other beats in both. ") +
              (is_timed_in_several_processes(i.facts)
                   ? "Bars hold the middle half of several processes."
                   : "Bars are spreads in one process."),
@@ -377,7 +386,8 @@ std::string index_page_html(const ReportIndex& i) {
              {fmt::format(
                  "The table takes the cheapest form with a small error: up to ΔE2000 {}, or an RMS "
                  "error of {} in G₂. If no form has a small error, it takes the one with the least "
-                 "error. If several cost the same within a tenth, it takes the usual one.",
+                 "error. The usual form is kept if another saves less than a tenth of a whole "
+                 "model's time.",
                  plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
@@ -388,10 +398,9 @@ std::string index_page_html(const ReportIndex& i) {
               "650, 550 and 450 nm."}},
             {"Multiple scattering",
              {fmt::format(
-                 "Fresnel is Schlick's, and cosines are 0.1 or more. Compensation begins at the "
-                 "roughness where one bounce is off by more than ΔE {}. From there on it must be "
-                 "nearer to the reference than one bounce, or it begins later. Gains below ΔE {} "
-                 "are not worth a compensation.",
+                 "Fresnel is Schlick's, and cosines are 0.1 or more. A compensation is taken where "
+                 "one bounce is off by more than ΔE {} and the compensation is nearer to the "
+                 "reference. Gains below ΔE {} are not worth it.",
                  plain(side_by_side), plain(just_seen))}},
             {"Under single lights",
              {"A ball is lit from 30° and from 120° to the view. The reference is random walks of "
@@ -402,12 +411,14 @@ std::string index_page_html(const ReportIndex& i) {
              {"The light is even. The reference is the transport of light between facets. Only "
               "Fdez-Agüera's compensation is compared: it was made for the split sum."}},
             {"Split sum",
-             {"It is listed because engines ship it: no threshold judges it. The exposure gives a "
-              "white ball half of the display's white."}},
+             {"It is listed because engines ship it: no threshold judges it. The exposure "
+              "makes a white ball half as bright as the display's white. The rim is at cosine "
+              "0.1."}},
             {"Diffuse",
              {fmt::format(
                  "Colours are those of a ball, where the cosines of light and view are {:g} or "
-                 "more. Reflected light is computed from cosine {:g} on. A form that reflects "
+                 "more. Reflected light is computed at cosines of {:g} or more. A form that "
+                 "reflects "
                  "more than {} of the light is left out. If all do, the one that reflects least "
                  "is taken.",
                  least_colour_cosine, least_diffuse_cosine, page::percent(no_light_made, 4))}},
@@ -415,13 +426,14 @@ std::string index_page_html(const ReportIndex& i) {
              {"The greatest value that was computed. Between the roughnesses, views and points "
               "that were computed it may be larger."}},
             {"Times",
-             {std::string(is_timed_in_several_processes(i.facts)
-                              ? "Both forms of a cost are timed in several processes. The cost is "
-                                "the median of their differences. It counts if it has the same "
-                                "sign in every process and is larger than the spread and than 3 % "
-                                "of the time. "
-                              : "Medians in one process, as --quick asks. A cost "
-                                "counts if it is larger than both spreads together. ") +
+             {std::string(
+                  is_timed_in_several_processes(i.facts)
+                      ? "Both forms of a cost are timed in several processes. The cost is "
+                        "the median of their differences. It counts if it has the same "
+                        "sign in every process and is larger than the spread and than 3 % "
+                        "of the time. "
+                      : "Medians in one process, as --quick asks. A cost "
+                        "counts if it is larger than the spreads of both times together. ") +
               (is_timed_in_several_processes(i.facts) ? "Compensations are timed in one process."
                                                       : "") +
               (i.facts.tails

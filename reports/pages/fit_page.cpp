@@ -95,6 +95,12 @@ std::vector<Row> rows_of(const FitDocument& d, const gonio::Table& t) {
   return out;
 }
 
+/// "≤ 0.01"
+std::string limit_text(const Row& r) {
+  return fmt::format("{}\u202f{}", r.status == ParameterStatus::upper_limit ? "≤" : "≥",
+                     significant(r.limit));
+}
+
 /// Options of the program, with what they are given, as code.
 std::string with_code(const std::string& text) {
   constexpr std::string_view letters = "abcdefghijklmnopqrstuvwxyz-";
@@ -137,7 +143,8 @@ Points warnings(const FitDocument& d,
     warn("Not known:", who + ". These data do not determine it; no value is given.");
   std::map<std::string, std::vector<std::string>> limited;  // by the reason
   for (const auto& r : rows)
-    if (r.status == upper_limit || r.status == lower_limit) limited[r.reason].push_back(r.label);
+    if (r.status == upper_limit || r.status == lower_limit)
+      limited[r.reason].push_back(r.label + " " + limit_text(r));
   for (const auto& [reason, who] : limited)
     warn("Only a limit (95 %):", fmt::format("{}.{}", fmt::join(who, ", "),
                                              reason.empty() ? "" : " " + capital(reason) + "."));
@@ -223,10 +230,6 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
     return !known(r.error) || even(r) ? with_error(x, r.error)
                                       : plain(std::abs(x) < 1e-4 * r.high ? 0 : x, 3);
   };
-  const auto limit = [](const Row& r) {
-    return fmt::format("{}\u202f{}", r.status == ParameterStatus::upper_limit ? "≤" : "≥",
-                       significant(r.limit));
-  };
   // That an interval ends where the formula does; 0 says that by itself.
   const auto cut = [&](const Row& r) -> std::string {
     const bool low = r.low <= r.range.low, high = r.high >= r.range.high;
@@ -239,7 +242,7 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
     if (known(r.limit) && r.limit > 0) {
       const bool upper = r.status == ParameterStatus::upper_limit;
       return interval_drawing(upper ? -infinity : 0, upper ? 0 : infinity, r.truth / r.limit - 1,
-                              reach, limit(r));
+                              reach, limit_text(r));
     }
     if (!bounded(r)) return "";
     const double low = relative(r, r.low), high = relative(r, r.high);
@@ -256,9 +259,9 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
     auto& row = t.rows.emplace_back();
     t.row_looks.emplace_back(r.first ? "first" : "");
     row.emplace_back("`" + r.label + "`");
-    row.emplace_back(known(r.limit) ? limit(r) : known(r.value) ? number(r, r.value) : "–");
+    row.emplace_back(known(r.limit) ? limit_text(r) : known(r.value) ? number(r, r.value) : "–");
     row.emplace_back(known(r.error) ? significant(r.error, 2) : "–");
-    row.emplace_back(known(r.limit) ? limit(r)
+    row.emplace_back(known(r.limit) ? limit_text(r)
                      : known(r.low) && known(r.high)
                          ? fmt::format("{} … {}", number(r, r.low), number(r, r.high))
                          : "–",
@@ -288,11 +291,9 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
   Section out{
       "Parameters",
       fmt::format(
-          "Values are written to the second digit of their standard error. Standard errors: "
+          "Values are rounded as their standard errors allow. Standard errors: "
           "{}.{}{}",
-          d.intervals,
-          d.misfit.told ? " They count random scatter only; the intervals also count the misfit."
-                        : "",
+          d.intervals, d.misfit.told ? " The intervals also count the misfit." : "",
           d.clusters > 0 ? fmt::format(" Incident angles: {}.", count_text(d.clusters)) : ""),
       {std::move(t)}};
   out.parts.emplace_back(Prose{

@@ -65,7 +65,7 @@ std::string rho_text(double rho) {
 // --- Where the model is off ----------------------------------------------------------------------
 namespace {
 
-std::string map_words(const ResidualMap& m, double limit) {
+std::string map_words(const ResidualMap& m) {
   std::vector<double> sizes;
   std::size_t worst = m.mean.size();
   for (std::size_t k = 0; k < m.mean.size(); ++k)
@@ -81,11 +81,9 @@ std::string map_words(const ResidualMap& m, double limit) {
   };
   return fmt::format(
       "In half of the {} cells the model is off by at most ×/÷ {}. Worst single cell, "
-      "which may be one bad sample: {}, at θ_h {}, θ_d {}. The strongest colours of model ÷ table "
-      "stand for ×/÷ {} or more.",
+      "which may be one bad sample: {}, at θ_h {}, θ_d {}.",
       count, typical_factor(median(sizes)), deviation_in_words(std::exp(m.mean[worst])),
-      middle(m.theta_h_deg, worst / nd), middle(m.theta_d_deg, worst % nd),
-      typical_factor(std::log(limit)));
+      middle(m.theta_h_deg, worst / nd), middle(m.theta_d_deg, worst % nd));
 }
 
 }  // namespace
@@ -95,7 +93,6 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
   c.controls = {{"shown", "Shown", "model ÷ table"}};
   c.look = "";
   Slot slot;
-  double limit = 1;
   for (const bool mean : {true, false}) {
     const auto* shown = mean ? "model ÷ table" : "typical factor";
     auto map = angle_map("residuals", {{"shown", shown}}, "theta_h", m.theta_h_deg, "theta_d",
@@ -112,13 +109,12 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
                   return sizes;
                 }());
     for (const double v : logs) map.values.push_back(std::exp(v));
-    if (mean) limit = map.limit;
     slot.each.push_back({{shown}, {Shown{map.family, map.choices}}});
     pictures.maps.push_back(std::move(map));
   }
   c.slots.push_back(std::move(slot));
-  Group maps{"", {std::move(c), Prose{map_words(m, limit), "small muted"}}},
-      beside{"columns map", {}}, bands{"bands", {}};
+  Group maps{"", {std::move(c), Prose{map_words(m), "small muted"}}}, beside{"columns map", {}},
+      bands{"bands", {}};
   beside.parts.emplace_back(std::move(maps));
   double most = 1e-12;
   for (const auto& b : d.residuals.bands)
@@ -253,7 +249,7 @@ Section albedo(const FitDocument& d, const Health& h, Pictures& pictures) {
       fmt::format("Share of the light from one direction that is reflected into all others. {}",
                   has_data ? "Where samples are missing or too far apart, the table gives no value."
                   : h.albedo.empty()
-                      ? "The table has too few directions to compute its own."
+                      ? "The table has too few directions for it."
                       : "The table's own stands under “What the table can be trusted for”."),
       {Prose{std::move(words)}, Group{"columns light", {picture, std::move(t)}}}};
 }
@@ -269,9 +265,13 @@ Section search(const FitDocument& d, Pictures& pictures) {
   double first = no_value;
   for (const auto& name : c.parameters) {
     const auto p = std::ranges::find(d.parameters, name, &FittedParameter::name);
-    if (p == d.parameters.end() || p->value.empty() || !known(p->value[0])) continue;
-    if (fitted.empty()) first = p->value[0];
-    fitted.push_back(fmt::format("{} {}", name, significant(p->value[0])));
+    if (p == d.parameters.end() || p->value.empty()) continue;
+    const bool is_excluded = !p->excluded.empty() && known(p->excluded[0]);
+    const double value = is_excluded ? p->excluded[0] : p->value[0];
+    if (!known(value)) continue;
+    if (fitted.empty()) first = value;
+    fitted.push_back(
+        fmt::format("{} {}{}", name, significant(value), is_excluded ? ", above its limit" : ""));
   }
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
@@ -381,7 +381,7 @@ Section confidence(const FitDocument& d, Pictures& pictures) {
   return {"How well the parameters are separated",
           tied && std::abs(tied->rho) > 0.005
               ? fmt::format("The pair hardest to tell apart: {} and {}, correlation {}. 0 is "
-                            "best; near ±1 one makes up for the other.",
+                            "best. Near −1 or 1 only a combination of both is known.",
                             tied->a, tied->b, rho_text(tied->rho))
               : "",
           {std::move(beside)}};

@@ -204,9 +204,9 @@ page::Section spheres_section(const Spheres& s, std::string_view name, std::size
   }
   if (shown.empty()) {
     out.title = "No sphere to show";
-    out.text =
-        fmt::format("The table has samples for {} of a sphere's lit pixels, and a third is needed.",
-                    most > 0 ? "at most " + rounded_up(100 * most) + "\u202f%" : "none");
+    out.text = fmt::format(
+        "The table has samples for {} of a sphere's lit pixels: too few for a comparison.",
+        most > 0 ? "at most " + rounded_up(100 * most) + "\u202f%" : "none");
     return out;
   }
   out.text = answer(shown, s, name);

@@ -250,9 +250,7 @@ page::Section curves_section(const gonio::Table& t,
           : "",
       with_model ? "Lines: the fitted model. " : "",
       any(&Cut::uncertainty) ? " Bars are 95 % intervals by the stated uncertainties." : "",
-      any(&Cut::left_out) ? " Samples called left out are those of --mask; no "
-                            "fit reads them."
-                          : "");
+      any(&Cut::left_out) ? " “Left out”: samples that --mask excludes from the fit." : "");
   if (channels.size() < t.channels.size())
     out.text += fmt::format(" Drawn are {} of {} channels, from the first to the last.",
                             channels.size(), count_text(t.channels.size()));

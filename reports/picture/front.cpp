@@ -6,17 +6,15 @@
 namespace gonio {
 
 FrontPlace front_place(std::span<const TimedError> rivals, std::size_t form) {
-  // Two ways to write one formula differ by rounding: that makes neither more exact.
-  constexpr double same = 1e-4;
   const TimedError& own = rivals[form];
   FrontPlace place;
   for (std::size_t i = 0; i < rivals.size(); ++i) {
     const TimedError& other = rivals[i];
-    if (i == form || other.error > own.error * (1 + same)) continue;
+    if (i == form || other.error > own.error * (1 + same_error)) continue;
     const auto faster = difference({other.time, other.each}, {own.time, own.each});
     if (faster.survives && faster.ns > 0) place.front = false;
     place.tie |= !faster.survives;
-    const bool is_as_exact = other.error >= own.error * (1 - same);
+    const bool is_as_exact = other.error >= own.error * (1 - same_error);
     place.on_line &= other.time.ns > own.time.ns || (is_as_exact && other.time.ns == own.time.ns);
   }
   return place;

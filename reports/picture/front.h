@@ -12,6 +12,9 @@
 
 namespace gonio {
 
+/// Two ways to write one formula differ by rounding: so small a part of an error makes neither more exact.
+inline constexpr double same_error = 1e-4;
+
 /// Time and error of a form.
 struct TimedError {
   Timing time;
@@ -20,7 +23,7 @@ struct TimedError {
       each{};  ///< times in each of the processes that measured all rivals, in order
 };
 
-/// Place of a form among its rivals.  Errors within 1e-4 of each other are as exact.
+/// Place of a form among its rivals.  Errors within same_error of each other are as exact.
 struct FrontPlace {
   /// No rival that is at least as exact is faster by a difference that survives (timing.h).
   bool front = true;

@@ -91,8 +91,9 @@ void savings(Findings& to, const ScenesRows& r) {
                   of_all(held.size() - none.size() - slower.size(), r.rows.size()), up_to);
   if (!slower.empty())
     to.headline += fmt::format(
-        " In {} others, forms that are proven accurate enough take up to {} times as long as cheap "
-        "ones.",
+        " In {} others, the plan takes up to {} times as long as without a plan, because no cheap "
+        "forms are proven "
+        "accurate enough.",
         slower.size(), slowest_of(slower));
   if (held.size() < r.rows.size())
     to.headline += fmt::format(" In {}, the plan fails its check.", r.rows.size() - held.size());

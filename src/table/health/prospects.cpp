@@ -208,10 +208,8 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format(
-              "{}; estimating errors common to all values of one angle takes 8 angles, or two for "
-              "each free parameter if that is more",
-              counted(n, "incident angle"))};
+          fmt::format("{}; 8 are needed, or two for each free parameter if that is more",
+                      counted(n, "incident angle"))};
 }
 
 }  // namespace
