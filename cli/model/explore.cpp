@@ -74,8 +74,8 @@ Exit run(const ExploreCall& o) {
     if (const auto* t = std::get_if<ExploredTable>(&e))
       say("{}: {} values; resampled for the spheres, typically off by ×/÷ {:.3f}{}\n", t->name,
           t->values, t->loss,
-          t->covered < 1
-              ? fmt::format("; {:.1f} % of the values have no place there", 100 * (1 - t->covered))
+          t->covered < 0.995
+              ? fmt::format("; {:.0f} % of the values have no place there", 100 * (1 - t->covered))
               : "");
   say("{}: open it in a browser\n", o.output);
   return Exit::done;

@@ -28,18 +28,18 @@ std::string ns(const Timing& t) {
 void schlick_beside_joint(Findings& to, const CostRows& r) {
   const auto *schlick = in_cache(r, "masking.schlick_ggx.direct"),
              *joint = in_cache(r, "masking.ue_joint.clamped"),
-             *plain = in_cache(r, "masking.ue_joint");
+             *plain = in_cache(r, "masking.hammon");  // in the fewest operations
   if (!schlick || !joint || !plain) return;
   const auto longer_than = [&](const CostRow& other) {
     return schlick->time.ns > other.time.ns && !is_tie(*schlick, other);
   };
-  to.judge("Schlick's masking costs a bit more than the joint approximation", "",
-           verdict(longer_than(*joint), longer_than(*plain)),
-           fmt::format("Schlick's {}, joint {}{} in Unreal's code, {}{} with its clamp",
-                       ns(schlick->time), ns(plain->time),
-                       is_tie(*schlick, *plain) ? " (within the spreads)" : "", ns(joint->time),
-                       is_tie(*schlick, *joint) ? " (within the spreads)" : ""),
-           "times are in float, from cache.");
+  to.judge(
+      "Schlick's masking costs a bit more than the joint approximation", "",
+      verdict(longer_than(*joint), longer_than(*plain)),
+      fmt::format("Schlick's {}, Unreal's joint form {}{}, {}{} with its clamp", ns(schlick->time),
+                  ns(plain->time), is_tie(*schlick, *plain) ? " (within the spreads)" : "",
+                  ns(joint->time), is_tie(*schlick, *joint) ? " (within the spreads)" : ""),
+      "times are in float, from cache.");
 }
 
 void exact_is_slow(Findings& to, const CostRows& r) {

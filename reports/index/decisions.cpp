@@ -220,8 +220,9 @@ std::string seen_side_by_side(const Facts& f,
                                 list_text(seen, " and "),
                                 form.empty() ? "" : fmt::format(" ({})", delta_at_most(error))));
   }
-  return parts.empty() ? std::string()
-                       : fmt::format("next to a photograph: then {}", fmt::join(parts, "; "));
+  return parts.empty()
+             ? std::string()
+             : fmt::format("it is seen next to a photograph: then {}", fmt::join(parts, "; "));
 }
 
 void fresnel_of(std::vector<Decision>& to,
@@ -394,7 +395,7 @@ void scattering(std::vector<Decision>& to, const Facts& f, double f0, bool of_im
                          ns_text(costs->without_ns));
   }
   if (other && other->form != single)
-    d.unless = fmt::format("time is short: then {} {}, otherwise one bounce, {}",
+    d.unless = fmt::format("time is short: then {} {} ({}), otherwise one bounce",
                            name_of_form(other->form), from(used.at(other->form)),
                            delta_at_most(other->error));
   to.push_back(std::move(d));
@@ -406,18 +407,13 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
   if (!f.split_sum) return;
   const auto& s = *f.split_sum;
   // A sphere shows its middle head on, and most of itself from the side.
-  to.push_back(
-      {fmt::format("Image-based light on white metal, worst of {} skies", s.skies),
-       fmt::format("Split sum, {0} × {0} table in half precision", s.size), "split_sum",
-       s.head_on && s.from_side ? fmt::format("mean ΔE {} head on, {} at 60°", at_most(*s.head_on),
-                                              at_most(*s.from_side))
-                                : fmt::format("RMS {:.1g} of E", s.rms),
-       s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
-       s.grazing
-           ? fmt::format(
-                 "the rim matters, which is off by mean ΔE {}: then integrate over directions",
-                 at_most(*s.grazing))
-           : ""});
+  to.push_back({fmt::format("Image-based light on white metal, worst of {} skies", s.skies),
+                fmt::format("Split sum, {0} × {0} table in half precision", s.size), "split_sum",
+                s.head_on && s.from_side ? fmt::format("mean ΔE {} head on, {} at 60°",
+                                                       at_most(*s.head_on), at_most(*s.from_side))
+                                         : fmt::format("RMS {:.1g} of E", s.rms),
+                s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
+                s.grazing ? "the rim matters: then integrate over directions" : ""});
 }
 
 /// Diffuse terms by how they look at equal albedo: matte surfaces beside EON, and what lies below a lobe beside EON coupled by albedos.

@@ -237,8 +237,8 @@ std::vector<Part> lead(const ReportIndex& i) {
         fmt::format(" A whole GGX model, with height-correlated Smith and Schlick, takes {} ns.",
                     significant(whole->ns, 2));
   cost +=
-      " Times of multiple scattering and the split sum are totals, to be compared only "
-      "within a row.";
+      " Times of multiple scattering and the split sum are totals that were measured apart: "
+      "compare them only within a row.";
   if (m && m->others && *m->others >= 0.25)
     cost += fmt::format(
         " The machine was busy: other programs took {} of {} processors, so times may be too long.",
@@ -248,22 +248,19 @@ std::vector<Part> lead(const ReportIndex& i) {
           ? ""
           : fmt::format("CIEDE2000. Nobody sees {} or less. Up to {} is seen only side by side.",
                         plain(just_seen), plain(side_by_side));
-  return {
-      Prose{"A form is one formula for one part of a material model. For each part the table "
-            "names the form to ship.",
-            "lead"},
-      Pairs{
-          {{"Error left",
-            {"How far a form is from its reference: exact Fresnel, height-correlated Smith "
-             "masking, light with all its bounces, or energy-preserving Oren–Nayar (EON). Under a "
-             "specular lobe, EON is scaled by the light that the lobe lets through."}},
-           {"Costs", {cost}},
-           {"Usual forms",
-            {"Schlick's Fresnel, Schlick's masking with k = (r+1)²/8, GGX, one bounce, "
-             "Lambert."}},
-           {"ΔE", {colour}},
-           {"G₂", {"Masking and shadowing together."}},
-           {"r, cosines", {"Roughness r is √α. Cosines are those to the normal."}}}}};
+  return {Prose{"A form is one formula for one part of a material model. For each part the table "
+                "names the form to ship.",
+                "lead"},
+          Pairs{{{"Error left",
+                  {"How far a form is from its reference: exact Fresnel, height-correlated Smith "
+                   "masking, light with all its bounces, or energy-preserving Oren–Nayar (EON)."}},
+                 {"Costs", {cost}},
+                 {"Usual forms",
+                  {"Schlick's Fresnel, Schlick's masking with k = (r+1)²/8, GGX, one bounce, "
+                   "Lambert."}},
+                 {"ΔE", {colour}},
+                 {"G₂", {"Masking and shadowing together."}},
+                 {"r, cosines", {"Roughness r is √α. Cosines are those to the normal."}}}}};
 }
 
 Section what_to_ship(const ReportIndex& i) {
@@ -370,10 +367,10 @@ std::string index_page_html(const ReportIndex& i) {
         {"What masking's accuracy costs",
          std::string(
              "Vertical: the error of G₂ to height-correlated Smith. Horizontal: the time of "
-             "one sample. The dashed line joins the forms that no other beats in both. ") +
+             "one sample. The dashed line joins the best trade-offs. ") +
              (is_timed_in_several_processes(i.facts)
                   ? "Bars hold the middle half of several processes."
-                  : "Bars are spreads in one process."),
+                  : "Bars show how much the times varied."),
          {page::Shown{front.figures[0].family, {}, 480}},
          "time"});
   out.sections.push_back(cards(i));
@@ -384,10 +381,10 @@ std::string index_page_html(const ReportIndex& i) {
        {Pairs{
            {{"Choice",
              {fmt::format(
-                 "The table takes the cheapest form with a small error: up to ΔE2000 {}, or an RMS "
-                 "error of {} in G₂. If no form has a small error, it takes the one with the least "
-                 "error. The usual form is kept if another saves less than a tenth of a whole "
-                 "model's time.",
+                 "The table takes the usual form if its error is small: up to ΔE2000 {}, or an RMS "
+                 "error of {} in G₂. Otherwise it takes the cheapest form with a small error. If "
+                 "none has one, it takes the form with the least error. The usual form is also "
+                 "left if another with a small error saves a tenth of a whole model's time.",
                  plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
@@ -404,19 +401,19 @@ std::string index_page_html(const ReportIndex& i) {
                  plain(side_by_side), plain(just_seen))}},
             {"Under single lights",
              {"A ball is lit from 30° and from 120° to the view. The reference is random walks of "
-              "light. Their error is added to ΔE. A difference counts if it is more than twice "
-              "their "
-              "error."}},
+              "light. Their error is added to ΔE. Differences between forms count if they are more "
+              "than twice that error."}},
             {"Under image-based light",
              {"The light is even. The reference is the transport of light between facets. Only "
               "Fdez-Agüera's compensation is compared: it was made for the split sum."}},
             {"Split sum",
              {"It is listed because engines ship it: no threshold judges it. The exposure "
-              "makes a white ball half as bright as the display's white. The rim is at cosine "
-              "0.1."}},
+              "makes a white ball half as bright as the display's white."}},
             {"Diffuse",
              {fmt::format(
-                 "Colours are those of a ball, where the cosines of light and view are {:g} or "
+                 "Below a lobe the reference is EON, scaled by the light that the lobe lets "
+                 "through. Colours are those of a ball, where the cosines of light and view are "
+                 "{:g} or "
                  "more. Reflected light is computed at cosines of {:g} or more. A form that "
                  "reflects "
                  "more than {} of the light is left out. If all do, the one that reflects least "

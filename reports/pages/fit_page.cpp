@@ -56,7 +56,8 @@ struct Row {
   double value, error, low, high, limit, truth;
   ParameterStatus status;
   std::string reason;
-  Range range;  ///< where the formula is defined; NaN where that is not known
+  double excluded;  ///< value of the fit beyond the limit
+  Range range;      ///< where the formula is defined; NaN where that is not known
 };
 /// What a table was made with by the model that was fitted; alpha and roughness from each other, alpha = roughness².
 double truth_of(const FitDocument& d,
@@ -89,7 +90,8 @@ std::vector<Row> rows_of(const FitDocument& d, const gonio::Table& t) {
       out.push_back({p.name, several ? p.name + "." + d.channels[c] : p.name, c == 0, p.value[c],
                      p.std_error[c], p.ci95_low[c], p.ci95_high[c],
                      c < p.limit.size() ? p.limit[c] : no_value, truth_of(d, t, p.name, c),
-                     p.status[c], c < p.reason.size() ? p.reason[c] : "", range});
+                     p.status[c], c < p.reason.size() ? p.reason[c] : "",
+                     c < p.excluded.size() ? p.excluded[c] : no_value, range});
     }
   }
   return out;
@@ -250,8 +252,8 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
                             fmt::format("95 % interval {} to {} of the value", signed_percent(low),
                                         signed_percent(high)));
   };
-  page::Table t{columns(fmt::format("|>value|>standard error|>95 % interval|status|{}interval "
-                                    "around the value (each picture spans ±{} of its value)",
+  page::Table t{columns(fmt::format("|>value|>standard error|>95 % interval|status|{}95 % "
+                                    "interval, drawn over ±{} of the value",
                                     with_truth ? ">truth|>off by|" : "", percent(reach))),
                 {},
                 "scroll parameters"};
@@ -266,8 +268,10 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
                          ? fmt::format("{} … {}", number(r, r.low), number(r, r.high))
                          : "–",
                      "", known(r.limit) ? "" : cut(r));
-    const std::string best =
-        known(r.limit) && known(r.value) ? "best value " + significant(r.value) : "";
+    const std::string best = known(r.excluded) ? "the fit has " + significant(r.excluded)
+                             : known(r.limit) && known(r.value)
+                                 ? "best value " + significant(r.value)
+                                 : "";
     row.push_back({std::string(status_words(name_of(r.status))), "",
                    best.empty() || r.reason.empty() ? best + r.reason : best + "; " + r.reason,
                    fmt::format("status {}", name_of(r.status))});

@@ -152,7 +152,7 @@ Section residuals(const FitDocument& d, const ResidualMap& m, Pictures& pictures
       "Each cell compares model and data by their ratio, over all channels and all valid positive "
       "values in it. Blue: the model is too dark; orange: too bright.",
       {std::move(beside), std::move(bands),
-       Prose{"The upper end of a range of angles belongs to it.", "small muted"}}};
+       Prose{"Ranges include their upper end.", "small muted"}}};
 }
 
 // --- Directional albedo -----------------------------------------------------------------------
@@ -266,19 +266,18 @@ Section search(const FitDocument& d, Pictures& pictures) {
   for (const auto& name : c.parameters) {
     const auto p = std::ranges::find(d.parameters, name, &FittedParameter::name);
     if (p == d.parameters.end() || p->value.empty()) continue;
-    const bool is_excluded = !p->excluded.empty() && known(p->excluded[0]);
-    const double value = is_excluded ? p->excluded[0] : p->value[0];
+    const double value =
+        p->excluded.empty() || !known(p->excluded[0]) ? p->value[0] : p->excluded[0];
     if (!known(value)) continue;
     if (fitted.empty()) first = value;
-    fitted.push_back(
-        fmt::format("{} {}{}", name, significant(value), is_excluded ? ", above its limit" : ""));
+    fitted.push_back(fmt::format("{} {}", name, significant(value)));
   }
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
       "For each of {} of {}, the other parameters were fitted to a part of the table. The best few "
-      "of these fits were repeated on the whole table. {} fits better than this page's fit{}: the "
-      "lowest cost that the search found (half the sum of squares) is {}, the fit's own is {}.{} "
-      "This is a search, not a proof.",
+      "were fitted again, to the whole table. {} fits better than this page's fit{}. The lowest "
+      "cost (half the sum of squares) that the search found is {}, the fit's own is {}.{} This is "
+      "a search, not a proof.",
       many(c.cells.size(), c.parameters.size() == 1 ? "value" : "pair"),
       fmt::join(c.parameters, " and "), lies ? "None" : "One",
       fitted.empty() ? "" : fmt::format(" ({})", fmt::join(fitted, ", ")), significant(c.lowest, 6),

@@ -91,10 +91,8 @@ void savings(Findings& to, const ScenesRows& r) {
                   of_all(held.size() - none.size() - slower.size(), r.rows.size()), up_to);
   if (!slower.empty())
     to.headline += fmt::format(
-        " In {} others, the plan takes up to {} times as long as without a plan, because no cheap "
-        "forms are proven "
-        "accurate enough.",
-        slower.size(), slowest_of(slower));
+        " In {} others it saves nothing, because only costly forms are proven accurate enough.",
+        slower.size());
   if (held.size() < r.rows.size())
     to.headline += fmt::format(" In {}, the plan fails its check.", r.rows.size() - held.size());
   to.say(fmt::format(

@@ -58,10 +58,11 @@ void which_alpha(Findings& to, const StabilityRows& r) {
   const auto* cross = find(r, "ndf.ggx", "cross", "half");
   if (!cross) return;
   const auto* flushed = find(r, "ndf.ggx", "cross", "half, flushed");
-  to.say(fmt::format(
-      "In half precision, D of GGX stays within {} from {} on, if the shader computes |n × h|²{}.",
-      percent(cross->tolerance, 1), from_text(*cross),
-      flushed ? " and the processor keeps subnormals" : ""));
+  to.say(
+      fmt::format("In half precision, D of GGX is off by at most {} for {} or more, if the shader "
+                  "computes |n × h|²{}.",
+                  percent(cross->tolerance, 1), from_text(*cross),
+                  flushed ? " and the processor keeps subnormals" : ""));
   std::string answer;
   if (flushed)
     answer =

@@ -173,7 +173,7 @@ Prospect kd(const Health& h, const Survey& s) {
                        : no,
       fmt::format(
           "far from the highlight, at theta_h = {2:.0f}°, values are {0:.3g} 1/sr; the highlight's "
-          "tail, if GGX, would be {1:.3g} % of them",
+          "tail, if GGX, would be {1:.3g} % of that",
           base, 100 * tail, h.peak->base_deg));
 }
 
@@ -208,7 +208,7 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format("{}; 8 are needed, or two for each free parameter if that is more",
+          fmt::format("{}; at least 8 are needed, and two for each free parameter",
                       counted(n, "incident angle"))};
 }
 

@@ -156,7 +156,8 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   EXPECT_EQ(masking.unless, "time is short: then Unreal's joint form, RMS error 0.07 in G₂");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").take, "Schlick");
   EXPECT_EQ(about(all, "Fresnel of gold, brass").unless,
-            "next to a photograph: then exact conductor at three wavelengths for brass (ΔE ≤ 0.9)");
+            "it is seen next to a photograph: then exact conductor at three wavelengths for brass "
+            "(ΔE ≤ 0.9)");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").take, "F82");
   EXPECT_EQ(about(all, "Fresnel of other metals (iron)").error,
             "ΔE ≤ 0.4 (Schlick: ΔE ≤ 5.7 for iron)");
@@ -187,10 +188,10 @@ TEST(Decisions, NameBesideAPhotographNoFormThatShowsThere) {
   auto f = made_facts();
   for (auto& x : f.fresnel)
     if (x.material == "gold") x.delta_e = x.form == "fresnel.schlick" ? 1.4 : 1.3;
-  EXPECT_EQ(
-      about(decisions(f), "Fresnel of gold").unless,
-      "next to a photograph: then the full spectrum for gold; exact conductor at three wavelengths "
-      "for brass (ΔE ≤ 0.9)");
+  EXPECT_EQ(about(decisions(f), "Fresnel of gold").unless,
+            "it is seen next to a photograph: then the full spectrum for gold; exact conductor at "
+            "three wavelengths "
+            "for brass (ΔE ≤ 0.9)");
 }
 
 TEST(Decisions, HaveARowForEachPartOfAMaterial) {
@@ -224,7 +225,7 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   EXPECT_EQ(about(lit, "Image-based light").cost, "21 ns a pixel");
   EXPECT_EQ(about(lit, "Image-based light").error, "mean ΔE ≤ 1.3 head on, ≤ 9.4 at 60°");
   EXPECT_EQ(about(lit, "Image-based light").unless,
-            "the rim matters, which is off by mean ΔE ≤ 14: then integrate over directions");
+            "the rim matters: then integrate over directions");
 }
 
 TEST(Decisions, TakeNoDiffuseTermThatMakesLight) {
@@ -251,7 +252,7 @@ TEST(Decisions, ChangeWhereAThresholdIsCrossed) {
   EXPECT_EQ(bounces.take, "Kulla and Conty for roughness 0.4 or more, otherwise one bounce");
   EXPECT_EQ(
       bounces.unless,
-      "time is short: then Turquin for roughness 0.4 or more, otherwise one bounce, ΔE ≤ 2.4");
+      "time is short: then Turquin for roughness 0.4 or more (ΔE ≤ 2.4), otherwise one bounce");
   for (auto& s : f.scattering)
     if (s.id == "kulla_conty") s.delta_e[1] = 2.6;  // further off than nothing up to there
   bounces = about(decisions(f), "Multiple scattering");

@@ -129,7 +129,8 @@ TEST(StabilityFindings, SayFromWhichAlphaOnAndThatOthersNeverDo) {
   r.rows[2].finite_from = 0.01;
   const auto f = findings(r);
   EXPECT_EQ(f.sentences[0],
-            "In half precision, D of GGX stays within 2\u00a0% from alpha 0.004 on, if the shader "
+            "In half precision, D of GGX is off by at most 2\u00a0% for alpha 0.004 or more, if "
+            "the shader "
             "computes |n × h|².")
       << "0.0039 would be below the limit";
   EXPECT_EQ(f.sentences[1], "A clamp there changes only surfaces of a roughness below 0.063.");
