@@ -380,12 +380,11 @@ std::string index_page_html(const ReportIndex& i) {
        "",
        {Pairs{
            {{"Choice",
-             {fmt::format(
-                 "The table takes the usual form if its error is small: up to ΔE2000 {}, or an RMS "
-                 "error of {} in G₂. Otherwise it takes the cheapest form with a small error. If "
-                 "none has one, it takes the form with the least error. The usual form is also "
-                 "left if another with a small error saves a tenth of a whole model's time.",
-                 plain(side_by_side), plain(small_masking_error))}},
+             {fmt::format("The table takes the cheapest form with a small error: up to ΔE2000 {}, "
+                          "or an RMS error of {} in G₂. It prefers the usual form if that costs at "
+                          "most a tenth of a whole model more. If no form has a small error, it "
+                          "takes the one with the least error.",
+                          plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
               "0.05 to 1."}},
@@ -430,7 +429,7 @@ std::string index_page_html(const ReportIndex& i) {
                         "sign in every process and is larger than the spread and than 3 % "
                         "of the time. "
                       : "Medians in one process, as --quick asks. A cost "
-                        "counts if it is larger than the spreads of both times together. ") +
+                        "counts if it is larger than the spreads of both forms' times together. ") +
               (is_timed_in_several_processes(i.facts) ? "Compensations are timed in one process."
                                                       : "") +
               (i.facts.tails

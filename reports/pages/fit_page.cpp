@@ -180,6 +180,8 @@ Points warnings(const FitDocument& d,
 }
 
 // --- Parameters ----------------------------------------------------------------------------------
+/// An interval that ends within a tenth beyond the picture is not seen to leave it: its ends and its value are rounded.
+constexpr double seen_beyond = 1.1;
 /// An interval around a value on a scale of relative distance; the truth is a tick.  What goes on beyond the scale, or is open,
 /// ends in an arrow; a limit begins in the middle.
 std::string interval_drawing(
@@ -198,8 +200,8 @@ std::string interval_drawing(
   };
   std::string marks =
       line(2, w - 2, h / 2, h / 2, "rule", 1) + line(x(low), x(high), h / 2, h / 2, "accent", 4);
-  if (low < -reach) marks += arrow(false, "accent");
-  if (high > reach) marks += arrow(true, "accent");
+  if (low < -seen_beyond * reach) marks += arrow(false, "accent");
+  if (high > seen_beyond * reach) marks += arrow(true, "accent");
   marks += known(low) && known(high)
                ? fmt::format(R"x(<circle cx="{}" cy="{}" r="3" fill="var(--ink)"/>)x", w / 2, h / 2)
                : line(w / 2, w / 2, 2, h - 2, "accent", 3);
@@ -287,7 +289,7 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
   }
   const bool has_arrow = std::ranges::any_of(rows, [&](const Row& r) {
     return known(r.limit) ||
-           (bounded(r) && std::max(-relative(r, r.low), relative(r, r.high)) > reach);
+           (bounded(r) && std::max(-relative(r, r.low), relative(r, r.high)) > seen_beyond * reach);
   });
   const bool leaves_truth = std::ranges::any_of(rows, [&](const Row& r) {
     return std::abs(known(r.limit) ? r.truth / r.limit - 1 : relative(r, r.truth)) > reach;

@@ -275,11 +275,12 @@ Section search(const FitDocument& d, Pictures& pictures) {
   const bool lies = c.lowest >= d.cost * (1 - 1e-6);
   auto words = fmt::format(
       "For each of {} of {}, the other parameters were fitted to a part of the table. The best few "
-      "were fitted again, to the whole table. {} fits better than this page's fit{}. The lowest "
+      "were fitted to the whole table, too, with {} held. {} fits better than this page's fit{}. "
+      "The lowest "
       "cost (half the sum of squares) that the search found is {}, the fit's own is {}.{} This is "
       "a search, not a proof.",
       many(c.cells.size(), c.parameters.size() == 1 ? "value" : "pair"),
-      fmt::join(c.parameters, " and "), lies ? "None" : "One",
+      fmt::join(c.parameters, " and "), fmt::join(c.parameters, " and "), lies ? "None" : "One",
       fitted.empty() ? "" : fmt::format(" ({})", fmt::join(fitted, ", ")), significant(c.lowest, 6),
       significant(d.cost, 6),
       c.moves > 0 ? fmt::format(" The fit began anew from a better one {}.",

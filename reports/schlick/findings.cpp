@@ -64,7 +64,7 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
                     all = outside.size() + metals.size();
   to.judge(
       "Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
-      fmt::format("glass: up to {} of full light, {} of F", rounded_up(g->max_abs),
+      fmt::format("glass: off by up to {} of full light, or by {} of F", rounded_up(g->max_abs),
                   percent_at_most(g->max_rel)),
       fmt::format("{} IORs of dielectrics and channels of metals are within 0.01 at all angles.",
                   of_all(some, all)));

@@ -231,7 +231,7 @@ ColumnProposal propose_columns(std::span<const ColumnSummary> columns,
           columns[*found.angle[azimuth]].name, named.name,
           largest(named) > 90 ? fmt::format("{} holds {:g}°, which no zenith angle is", named.name,
                                             named.highest > 90 ? named.highest : named.lowest)
-                              : "assumed, as those of the other direction are swapped"));
+                              : "assumed, because the other direction's names are swapped"));
       std::swap(found.angle[zenith], found.angle[azimuth]);
     }
 

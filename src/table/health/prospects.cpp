@@ -208,8 +208,7 @@ Prospect intervals(const Table& t) {
           n >= 8   ? yes
           : n >= 2 ? weakly
                    : no,
-          fmt::format("{}; at least 8 are needed, and two for each free parameter",
-                      counted(n, "incident angle"))};
+          fmt::format("{}; at least 8 are needed", counted(n, "incident angle"))};
 }
 
 }  // namespace

@@ -43,7 +43,7 @@ TEST(ColumnProposal, AZenithAngleThatGoesRoundIsTheAzimuth) {
                                  {"f", "brdf"}}));
   ASSERT_EQ(p.said.size(), 2U);
   EXPECT_TRUE(p.said[0].ends_with("theta_i holds 180°, which no zenith angle is")) << p.said[0];
-  EXPECT_TRUE(p.said[1].ends_with("those of the other direction are swapped")) << p.said[1];
+  EXPECT_TRUE(p.said[1].ends_with("the other direction's names are swapped")) << p.said[1];
 }
 
 TEST(ColumnProposal, AnglesWithinTwoPiAreRadians) {
