@@ -287,7 +287,7 @@ void fixed_coat(Findings& to, const EnergyRows& r) {
   const auto& row = coat->rows[at];
   to.judge("GGX's G of a fixed roughness 0.25 looks good on the coat",
            "Burley 2012, Physically-Based Shading at Disney", verdict_on_small(most),
-           fmt::format("the coat reflects {} instead of {}", percent(row.albedo),
+           fmt::format("at F = 1 the coat reflects {} instead of {}", percent(row.albedo),
                        percent(smith->rows[at].albedo)),
            fmt::format("this is the worst case, at {}, before Fresnel. It is compared with the "
                        "height-correlated Smith masking of the coat's own distribution.",

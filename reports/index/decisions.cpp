@@ -407,11 +407,12 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
   if (!f.split_sum) return;
   const auto& s = *f.split_sum;
   // A sphere shows its middle head on, and most of itself from the side.
-  to.push_back({fmt::format("Image-based light on white metal, worst of {} skies", s.skies),
+  to.push_back({fmt::format("Image-based light on white metal (worst of {} skies)", s.skies),
                 fmt::format("Split sum, {0} × {0} table in half precision", s.size), "split_sum",
-                s.head_on && s.from_side ? fmt::format("mean ΔE {} head on, {} at 60°",
-                                                       at_most(*s.head_on), at_most(*s.from_side))
-                                         : fmt::format("RMS {:.1g} of E", s.rms),
+                s.head_on && s.from_side
+                    ? fmt::format("ΔE {} head on, {} at 60° (means over views)",
+                                  at_most(*s.head_on), at_most(*s.from_side))
+                    : fmt::format("RMS {:.1g} of E", s.rms),
                 s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
                 s.grazing ? "the rim matters: then integrate over directions" : ""});
 }

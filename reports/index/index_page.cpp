@@ -237,8 +237,8 @@ std::vector<Part> lead(const ReportIndex& i) {
         fmt::format(" A whole GGX model, with height-correlated Smith and Schlick, takes {} ns.",
                     significant(whole->ns, 2));
   cost +=
-      " Times of multiple scattering and the split sum are totals that were measured apart: "
-      "compare them only within a row.";
+      " Rows of multiple scattering and the split sum show absolute times. Compare these within a "
+      "row, not between rows.";
   if (m && m->others && *m->others >= 0.25)
     cost += fmt::format(
         " The machine was busy: other programs took {} of {} processors, so times may be too long.",
@@ -381,9 +381,9 @@ std::string index_page_html(const ReportIndex& i) {
        {Pairs{
            {{"Choice",
              {fmt::format("The table takes the cheapest form with a small error: up to ΔE2000 {}, "
-                          "or an RMS error of {} in G₂. It prefers the usual form if that costs at "
-                          "most a tenth of a whole model more. If no form has a small error, it "
-                          "takes the one with the least error.",
+                          "or an RMS error of {} in G₂. The usual form is taken even if it costs a "
+                          "tenth of a whole model more than that one. If no form has a small "
+                          "error, the one with the least error is taken.",
                           plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "

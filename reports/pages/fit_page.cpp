@@ -254,8 +254,8 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
                             fmt::format("95 % interval {} to {} of the value", signed_percent(low),
                                         signed_percent(high)));
   };
-  page::Table t{columns(fmt::format("|>value|>standard error|>95 % interval|status|{}95 % "
-                                    "interval, drawn over ±{} of the value",
+  page::Table t{columns(fmt::format("|>value|>standard error|>95 % interval|status|{}picture of "
+                                    "the interval, ±{} around the value",
                                     with_truth ? ">truth|>off by|" : "", percent(reach))),
                 {},
                 "scroll parameters"};

@@ -223,7 +223,8 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
   f.split_sum->ns = 21;
   const auto lit = decisions(f);
   EXPECT_EQ(about(lit, "Image-based light").cost, "21 ns a pixel");
-  EXPECT_EQ(about(lit, "Image-based light").error, "mean ΔE ≤ 1.3 head on, ≤ 9.4 at 60°");
+  EXPECT_EQ(about(lit, "Image-based light").error,
+            "ΔE ≤ 1.3 head on, ≤ 9.4 at 60° (means over views)");
   EXPECT_EQ(about(lit, "Image-based light").unless,
             "the rim matters: then integrate over directions");
 }

@@ -174,7 +174,8 @@ TEST(IndexRow, OfTheSplitSumSaysWhatMostOfASphereShows) {
     if (nov == 0.5) most = std::max(most, delta_e);
   }
   const auto row = of(decisions(facts(r)), "Image-based light");
-  EXPECT_EQ(row.error, fmt::format("mean ΔE ≤ 2.5 head on, {} at 60°", at_most(most)));
+  EXPECT_EQ(row.error,
+            fmt::format("ΔE ≤ 2.5 head on, {} at 60° (means over views)", at_most(most)));
   EXPECT_EQ(row.unless, "the rim matters: then integrate over directions");
 }
 
