@@ -52,11 +52,8 @@ std::string value_in_words(const FittedParameter& p, std::size_t c) {
 /// Why no more is known of it.
 std::string status_in_words(const FittedParameter& p, std::size_t c) {
   const std::string reason = p.reason[c].empty() ? "" : "; " + p.reason[c];
-  const std::string best = c < p.excluded.size() && !std::isnan(p.excluded[c])
-                               ? fmt::format("; the fit has {:.3g}", p.excluded[c])
-                           : std::isnan(p.value[c])
-                               ? ""
-                               : fmt::format("; best value {:.3g}", p.value[c]);
+  const std::string best =
+      std::isnan(p.value[c]) ? "" : fmt::format("; best value {:.3g}", p.value[c]);
   switch (p.status[c]) {
     case ParameterStatus::free:
     case ParameterStatus::unbounded:

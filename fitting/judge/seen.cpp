@@ -68,9 +68,8 @@ void keep_to_highlights(TableFacts& facts,
   // A width that meets the samples about the peak, too, is not wider than it.
   const double met = misfit.told ? 0 : std::fmax(value, u[i].high_end(value));
   u[i].keep_limit(upper_limit, std::max(peak->alpha, met),
-                  misfit.told && value > peak->alpha
-                      ? "the table's highlight is narrower than the fit's"
-                      : "the samples do not resolve the highlight");
+                  misfit.told && value > peak->alpha ? "the table's highlight is no wider than this"
+                                                     : "the samples do not resolve the highlight");
 }
 
 /// A width at the low end of all there are: narrower ones, or no lobe, would do as well.

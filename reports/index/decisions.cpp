@@ -410,8 +410,8 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
   to.push_back({fmt::format("Image-based light on white metal (worst of {} skies)", s.skies),
                 fmt::format("Split sum, {0} × {0} table in half precision", s.size), "split_sum",
                 s.head_on && s.from_side
-                    ? fmt::format("ΔE {} head on, {} at 60° (means over views)",
-                                  at_most(*s.head_on), at_most(*s.from_side))
+                    ? fmt::format("mean ΔE {} head on, {} at 60°", rounded_up(*s.head_on),
+                                  rounded_up(*s.from_side))
                     : fmt::format("RMS {:.1g} of E", s.rms),
                 s.ns ? fmt::format("{} a pixel", ns_text(*s.ns)) : "one look-up",
                 s.grazing ? "the rim matters: then integrate over directions" : ""});
@@ -491,12 +491,11 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                    percent(half->tolerance, 2), half->zenith_deg),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
-       fmt::format("only D is in half precision: then α clamped to at least {}{}",
-                   rounded_up(*own->safe_from),
-                   kept && kept->safe_from
-                       ? fmt::format(", or to {} where the processor keeps subnormals",
-                                     rounded_up(*kept->safe_from))
-                       : "")});
+       fmt::format(
+           "V and F are in float: then α clamped to at least {}{}", rounded_up(*own->safe_from),
+           kept && kept->safe_from ? fmt::format(", or to {} where the processor keeps subnormals",
+                                                 rounded_up(*kept->safe_from))
+                                   : "")});
 }
 
 }  // namespace

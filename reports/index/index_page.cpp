@@ -381,8 +381,8 @@ std::string index_page_html(const ReportIndex& i) {
        {Pairs{
            {{"Choice",
              {fmt::format("The table takes the cheapest form with a small error: up to ΔE2000 {}, "
-                          "or an RMS error of {} in G₂. The usual form is taken even if it costs a "
-                          "tenth of a whole model more than that one. If no form has a small "
+                          "or an RMS error of {} in G₂. The usual form may cost up to a tenth of a "
+                          "whole model more than the cheapest. If no form has a small "
                           "error, the one with the least error is taken.",
                           plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
@@ -406,7 +406,8 @@ std::string index_page_html(const ReportIndex& i) {
              {"The light is even. The reference is the transport of light between facets. Only "
               "Fdez-Agüera's compensation is compared: it was made for the split sum."}},
             {"Split sum",
-             {"It is listed because engines ship it: no threshold judges it. The exposure "
+             {"ΔE is a mean over views, rounded up. The row is listed because engines ship it: no "
+              "threshold judges it. The exposure "
               "makes a white ball half as bright as the display's white."}},
             {"Diffuse",
              {fmt::format(

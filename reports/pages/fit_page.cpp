@@ -270,12 +270,11 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
                          ? fmt::format("{} … {}", number(r, r.low), number(r, r.high))
                          : "–",
                      "", known(r.limit) ? "" : cut(r));
-    const std::string best = known(r.excluded) ? "the fit has " + significant(r.excluded)
-                             : known(r.limit) && known(r.value)
-                                 ? "best value " + significant(r.value)
-                                 : "";
-    row.push_back({std::string(status_words(name_of(r.status))), "",
-                   best.empty() || r.reason.empty() ? best + r.reason : best + "; " + r.reason,
+    std::string why = r.reason;
+    const auto add = [&](const std::string& text) { why += (why.empty() ? "" : "; ") + text; };
+    if (known(r.excluded)) add("the fit has " + significant(r.excluded));
+    if (known(r.limit) && known(r.value)) add("best value " + significant(r.value));
+    row.push_back({std::string(status_words(name_of(r.status))), "", std::move(why),
                    fmt::format("status {}", name_of(r.status))});
     if (with_truth) {
       row.emplace_back(plain(r.truth));
