@@ -224,9 +224,9 @@ std::vector<std::string> physics_in_words(const Physics& p, bool misfit) {
   if (dark)
     all.emplace_back("the fitted model is not dark where a channel of the table is 0 everywhere");
   if (ratio > far_above || (misfit && ratio > 0 && ratio < 1 / far_above))
-    all.push_back(fmt::format(
-        "at the table's own samples the fitted model peaks at {} times the table's greatest value",
-        factor(ratio)));
+    all.push_back(
+        fmt::format("at the table's own samples the model's greatest value is {} times the table's",
+                    factor(ratio)));
   return all;
 }
 

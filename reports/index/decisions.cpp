@@ -472,8 +472,7 @@ const Facts::Precision* precision_of(const Facts& f,
 /// A whole highlight: D in itself keeps its digits where D V F is already infinite.
 void precision(std::vector<Decision>& to, const Facts& f) {
   const auto *half = precision_of(f, usual_model, "directions", "half"),
-             *own = precision_of(f, "ndf.ggx", "cross", "half, flushed"),
-             *kept = precision_of(f, "ndf.ggx", "cross", "half");
+             *own = precision_of(f, "ndf.ggx", "cross", "half, flushed");
   if (!half || !own || !own->safe_from) return;
   if (!half->safe_from) {
     to.push_back({"Precision: D V F NoL of GGX in half precision", "float instead", "ndf.ggx",
@@ -491,11 +490,8 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                    percent(half->tolerance, 2), half->zenith_deg),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
-       fmt::format(
-           "V and F are in float: then α clamped to at least {}{}", rounded_up(*own->safe_from),
-           kept && kept->safe_from ? fmt::format(", or to {} where the processor keeps subnormals",
-                                                 rounded_up(*kept->safe_from))
-                                   : "")});
+       fmt::format("half precision is used for D only: then α clamped to at least {}",
+                   rounded_up(*own->safe_from))});
 }
 
 }  // namespace

@@ -381,8 +381,9 @@ std::string index_page_html(const ReportIndex& i) {
        {Pairs{
            {{"Choice",
              {fmt::format("The table takes the cheapest form with a small error: up to ΔE2000 {}, "
-                          "or an RMS error of {} in G₂. The usual form may cost up to a tenth of a "
-                          "whole model more than the cheapest. If no form has a small "
+                          "or an RMS error of {} in G₂. A usual form with a small error is taken "
+                          "before the cheapest if they differ by at most a tenth of a whole "
+                          "model's time. If no form has a small "
                           "error, the one with the least error is taken.",
                           plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
@@ -429,7 +430,7 @@ std::string index_page_html(const ReportIndex& i) {
                         "the median of their differences. It counts if it has the same "
                         "sign in every process and is larger than the spread and than 3 % "
                         "of the time. "
-                      : "Medians in one process, as --quick asks. A cost "
+                      : "Times are medians of one process (--quick). A cost "
                         "counts if it is larger than the spreads of both forms' times together. ") +
               (is_timed_in_several_processes(i.facts) ? "Compensations are timed in one process."
                                                       : "") +

@@ -117,7 +117,7 @@ constexpr std::array kinds{
                cross_fit_files, cross_fit_schema, 90},
     ReportKind{"cost", "what accuracy costs in time: every form and whole models", cost_files,
                cost_schema, 160},
-    ReportKind{"stability", "which formulas stay stable in few bits, and from which inputs on",
+    ReportKind{"stability", "which formulas stay stable in few bits, and for which inputs",
                stability_files, stability_schema, 50},
     ReportKind{"scenes",
                "which effects a material needs in a scene, and what leaving out the others saves",

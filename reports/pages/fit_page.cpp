@@ -298,7 +298,8 @@ Section parameters(const FitDocument& d, const std::vector<Row>& rows) {
       fmt::format(
           "Values are rounded as their standard errors allow. Standard errors: "
           "{}.{}{}",
-          d.intervals, d.misfit.told ? " The intervals also count the misfit." : "",
+          d.intervals,
+          d.misfit.told ? " The misfit widens the intervals, not the standard errors." : "",
           d.clusters > 0 ? fmt::format(" Incident angles: {}.", count_text(d.clusters)) : ""),
       {std::move(t)}};
   out.parts.emplace_back(Prose{

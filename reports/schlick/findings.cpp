@@ -78,12 +78,13 @@ void only_near_one(Findings& to, const SchlickRows& r) {
   constexpr double poor = 0.05;
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
-  to.judge("Schlick is accurate enough; near a relative IOR of 1 its error is larger",
-           "Disney, SIGGRAPH 2015", verdict(only, near),
-           fmt::format("off by up to {} at IOR {:g}, {} for {}", rounded_up(low.max_abs),
-                       index(low), rounded_up(metal->max_abs), metal->material),
-           fmt::format("from IOR {:g} on the error grows again, to {} at IOR {:g}.", index(*best),
-                       rounded_up(high.max_abs), index(high)));
+  to.judge(
+      "Schlick is accurate enough; near a relative IOR of 1 its error is larger",
+      "Disney, SIGGRAPH 2015", verdict(only, near),
+      fmt::format("off by up to {} of full light at IOR {:g}, by {} for {}",
+                  rounded_up(low.max_abs), index(low), rounded_up(metal->max_abs), metal->material),
+      fmt::format("from IOR {:g} on the error grows again, to {} at IOR {:g}.", index(*best),
+                  rounded_up(high.max_abs), index(high)));
 }
 
 void from_inside(Findings& to, const SchlickRows& r) {

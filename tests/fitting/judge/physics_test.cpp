@@ -83,8 +83,7 @@ TEST(Physics, IsWarnedOfWhereAModelThatMissesTheTableHasALowerPeak) {
   EXPECT_EQ(physics_in_words(p, false).size(), 0U);
   EXPECT_EQ(physics_in_words(p, true),
             std::vector<std::string>{
-                "at the table's own samples the fitted model peaks at 0.1 times the table's "
-                "greatest value"});
+                "at the table's own samples the model's greatest value is 0.1 times the table's"});
 }
 
 }  // namespace

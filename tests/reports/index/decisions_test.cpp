@@ -181,7 +181,7 @@ TEST(Decisions, SayWhatToTakeByTheFactsOfTheRun) {
   EXPECT_EQ(about(all, "Fresnel of gold, brass").cost, "none (the usual form)");
   const auto& bits = about(all, "Precision: a GGX highlight in half precision");
   EXPECT_EQ(bits.take, "sin² θ_h from |n × h|², α clamped to at least 0.037");
-  EXPECT_EQ(bits.unless, "V and F are in float: then α clamped to at least 0.004");
+  EXPECT_EQ(bits.unless, "half precision is used for D only: then α clamped to at least 0.004");
 }
 
 TEST(Decisions, NameBesideAPhotographNoFormThatShowsThere) {
