@@ -149,6 +149,7 @@ TEST(Seen, AMeasuredHighlightThatIsNotResolvedHasAWidthAtMost) {
   const FittedParameter measured = parameter(fit(t, o).document, "alpha");
   EXPECT_EQ(measured.status[0], ParameterStatus::upper_limit);
   EXPECT_EQ(measured.limit[0], h.peak->alpha);
+  EXPECT_TRUE(std::isnan(measured.excluded[0])) << "the value does not contradict it";
   EXPECT_TRUE(std::isnan(measured.std_error[0]));
   t.truth = Truth{};  // points that no instrument has widened
   EXPECT_EQ(parameter(fit(t, o).document, "alpha").status[0], ParameterStatus::free);
@@ -212,6 +213,9 @@ TEST(StarlinkChassis, IsAsNarrowAsInspectSays) {
   EXPECT_EQ(parameter(d, "alpha").status[0], ParameterStatus::upper_limit);
   EXPECT_EQ(parameter(d, "alpha").limit[0], h.peak->alpha);
   EXPECT_NEAR(h.peak->alpha, 0.0137, 0.0001);
+  EXPECT_TRUE(std::isnan(parameter(d, "alpha").value[0]));
+  EXPECT_NEAR(parameter(d, "alpha").excluded[0], 0.0318, 0.0001) << "where the fit ended";
+  EXPECT_NEAR(parameter(d, "roughness").excluded[0], 0.178, 0.001);
 }
 
 }  // namespace

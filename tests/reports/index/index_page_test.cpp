@@ -26,9 +26,11 @@ ReportFiles made_files() {
                        {"ggx/smith_ggx.correlated/schlick", "directions", "half", 0.02, 0.04, 88}};
   r.facts.masking = {{"masking.schlick_ggx.direct", 0.28},
                      {"masking.cook_torrance", 0.4},
+                     {"masking.ue_joint", 0.4 * (1 + 1e-6)},
                      {"masking.smith_ggx.correlated", 0}};
   for (const auto& [id, ns] : {std::pair("masking.schlick_ggx.direct", 0.3),
                                {"masking.cook_torrance", 0.5},
+                               {"masking.ue_joint", 0.45},
                                {"masking.smith_ggx.correlated", 0.6}})
     r.facts.in_cache.push_back({id, ns, 0.01});
   const FigureCurve points{"GGX", {1, 2}, {0.1, 0.2}, FigureCurve::Kind::points};
@@ -53,7 +55,8 @@ TEST(ReportIndex, TellsDecisionsOneSentenceAReportAndClaimsWithTheirFigure) {
   EXPECT_EQ(j["claims"][0]["figure"], "0.036 of light");
   const auto& curves = j["front"][0]["curves"];
   ASSERT_EQ(curves.size(), 2U);
-  EXPECT_EQ(curves[0]["y"], (std::vector<double>{0.28, 0.4, 0})) << "the errors of the table";
+  EXPECT_EQ(curves[0]["y"], (std::vector<double>{0.28, 0.4, 0}))
+      << "the errors of the table, each formula once";
   EXPECT_EQ(curves[0]["labels"][1], "Cook–Torrance");
   EXPECT_EQ(curves[1]["y"], (std::vector<double>{0.28, 0})) << "Cook–Torrance is beaten in both";
   EXPECT_EQ(j["front"][0]["y"]["label"], "RMS error of G₂");
