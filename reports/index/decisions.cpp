@@ -472,7 +472,8 @@ const Facts::Precision* precision_of(const Facts& f,
 /// A whole highlight: D in itself keeps its digits where D V F is already infinite.
 void precision(std::vector<Decision>& to, const Facts& f) {
   const auto *half = precision_of(f, usual_model, "directions", "half"),
-             *own = precision_of(f, "ndf.ggx", "cross", "half, flushed");
+             *own = precision_of(f, "ndf.ggx", "cross", "half, flushed"),
+             *kept = precision_of(f, "ndf.ggx", "cross", "half");
   if (!half || !own || !own->safe_from) return;
   if (!half->safe_from) {
     to.push_back({"Precision: D V F NoL of GGX in half precision", "float instead", "ndf.ggx",
@@ -490,8 +491,11 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                    percent(half->tolerance, 2), half->zenith_deg),
        fmt::format("surfaces below roughness {0} look like {0}",
                    rounded_up(std::sqrt(*half->safe_from))),
-       fmt::format("half precision is used for D only: then α clamped to at least {}",
-                   rounded_up(*own->safe_from))});
+       fmt::format("half precision is used for D only: then α clamped to at least {}{}",
+                   rounded_up(*own->safe_from),
+                   kept && kept->safe_from ? fmt::format("; {} if the processor keeps subnormals",
+                                                         rounded_up(*kept->safe_from))
+                                           : "")});
 }
 
 }  // namespace
