@@ -136,10 +136,10 @@ TEST(Fit, TellsThatACarPaintWithItsCopiesRisesAboveItsTable) {
   double most = 0;
   for (const double ratio : kept["physics"]["peak_ratio"]) most = std::max(most, ratio);
   EXPECT_GT(most, 2);
-  EXPECT_TRUE(any_holds(kept["warnings"], "times the table's greatest value")) << kept["warnings"];
+  EXPECT_TRUE(any_holds(kept["warnings"], "the model's greatest value is")) << kept["warnings"];
   EXPECT_TRUE(any_holds(kept["next"], "fit without --copies keep")) << kept["next"];
   const auto left = gonio(f, "fit '" + path + "' --metric l2_cosine --json").json();
-  EXPECT_FALSE(any_holds(left["warnings"], "the table's greatest value")) << left["warnings"];
+  EXPECT_FALSE(any_holds(left["warnings"], "the model's greatest value is")) << left["warnings"];
   EXPECT_FALSE(any_holds(left["next"], "--copies")) << left["next"];
 }
 
