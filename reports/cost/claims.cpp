@@ -52,8 +52,10 @@ void exact_is_slow(Findings& to, const CostRows& r) {
   to.judge("the exact Fresnel equations are slow", "",
            verdict(whole > 1.5, term > 1.5 && !is_tie(*exact, *schlick)),
            fmt::format("exact takes {:.1f} times Schlick's time", term),
-           "the equations are those of a dielectric, and the model is GGX, composed of its terms. "
-           "Both are timed in float, from cache.");
+           fmt::format(
+               "the equations are those of a dielectric. A whole GGX model, composed of its terms, "
+               "takes {:.2f} times as long with them. Both are timed in float, from cache.",
+               whole));
 }
 
 void pow5(Findings& to, const CostRows& r) {

@@ -53,13 +53,14 @@ void phong_is_beckmann(Findings& to, const EnergyRows& r) {
   const auto& all = r.claims.phong_from_beckmann;
   if (all.empty()) return;
   const auto &smooth = all.front(), &rough = all.back();
-  to.judge("Phong and Beckmann are equivalent by the exponent 2α⁻² − 2",
-           "the exponent that Walter et al. 2007 recommend",
-           verdict(rough.share < 0.01, smooth.share < 0.01),
-           fmt::format("{} of the facets' area is distributed differently at roughness {:g}",
-                       percent(rough.share, 2), rough.roughness),
-           fmt::format("at roughness {:g} they differ by {}.", smooth.roughness,
-                       percent(smooth.share, 2)));
+  to.judge(
+      "Phong and Beckmann are equivalent by the exponent 2α⁻² − 2",
+      "the exponent that Walter et al. 2007 recommend",
+      verdict(rough.share < 0.01, smooth.share < 0.01),
+      fmt::format("{} of the facets' projected area is distributed differently at roughness {:g}",
+                  percent(rough.share, 2), rough.roughness),
+      fmt::format("at roughness {:g} they differ by {}.", smooth.roughness,
+                  percent(smooth.share, 2)));
 }
 
 void irradiance_is_a_sum(Findings& to, const EnergyRows& r) {

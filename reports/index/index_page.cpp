@@ -72,13 +72,11 @@ std::vector<Facts::Fresnel> fresnel_grid(const ReportIndex& index) {
 /// the fewest operations.  Empty where no report has both.
 Pictures masking_front(const Facts& facts) {
   std::vector<FrontDot> dots;
-  const auto is_same = [](const Facts::Masking& a, const Facts::Masking& b) {
-    return std::abs(a.rms - b.rms) <= same_error * b.rms;
-  };
   for (const auto& m : facts.masking)
     if (const auto* t = time_of(facts.in_cache, m.form);
-        t &&
-        &m == &*std::ranges::find_if(facts.masking, [&](const auto& x) { return is_same(x, m); }))
+        t && std::ranges::none_of(dots, [&](const FrontDot& other) {
+          return std::abs(other.at.error - m.rms) <= same_error * m.rms;
+        }))
       dots.push_back({name_of_form(m.form), {{t->ns, t->spread}, m.rms, t->each}});
   if (dots.empty()) return {};
   mark_front(dots);
