@@ -40,13 +40,9 @@ const Candidate* find(const Candidates& all, std::string_view form) {
   return at == all.end() ? nullptr : &*at;
 }
 /// It saves a part of the other's time for which one leaves a form.
-bool saves_enough(const Candidate& a, const Candidate& b, double whole_ns = 0) {
+bool saves_enough(const Candidate& a, const Candidate& b) {
   constexpr double worth = 0.1;
-  return is_clearly_cheaper(a, b) && more(a, b).ns > worth * std::max(whole_ns, b.ns);
-}
-double whole_model_ns(const Facts& f) {
-  const auto* t = time_of(f.whole, usual_model);
-  return t ? t->ns : 0;
+  return is_clearly_cheaper(a, b) && more(a, b).ns > worth * b.ns;
 }
 /// The nearest of those that save a part of what is taken that is worth an error; the first of those that are as near.
 const Candidate* nearest_cheaper(const Candidates& all, const Candidate& taken) {
@@ -93,8 +89,7 @@ void masking(std::vector<Decision>& to, const Facts& f) {
   Candidates all;
   for (const auto& m : f.masking)
     if (const auto* t = time_of(f.in_cache, m.form)) all.push_back(candidate(m.form, m.rms, *t));
-  const auto *cheap = find(all, direct),
-             *taken = choose(all, direct, small_masking_error, whole_model_ns(f));
+  const auto *cheap = find(all, direct), *taken = choose(all, direct, small_masking_error);
   if (!cheap || !taken) return;
   const auto rms = [](const Candidate& c) {
     return fmt::format("RMS error {:.2g} in G₂", c.error);
@@ -204,7 +199,7 @@ std::string seen_side_by_side(const Facts& f,
   for (const auto& m : materials) {
     if (m.delta_e <= just_seen) continue;
     const auto all = fresnel_candidates(f, kind, {m});
-    const auto* better = choose(all, schlick, just_seen, whole_model_ns(f));
+    const auto* better = choose(all, schlick, just_seen);
     const auto form = better && better->error <= just_seen ? better->form : std::string();
     auto at = std::ranges::find(by_form, form, &Helps::form);
     if (at == by_form.end()) at = by_form.insert(at, {form});
@@ -232,8 +227,7 @@ void fresnel_of(std::vector<Decision>& to,
                 bool is_all,
                 bool is_rest) {
   const auto all = fresnel_candidates(f, kind, materials);
-  const auto *cheap = find(all, schlick),
-             *taken = choose(all, schlick, side_by_side, whole_model_ns(f));
+  const auto *cheap = find(all, schlick), *taken = choose(all, schlick, side_by_side);
   if (!cheap || !taken) return;
   const std::string kinds = kind == "metal" ? "metals" : "dielectrics";
   const auto names = materials_text(materials);
@@ -438,7 +432,7 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
     if (t && (off || is_reference) && most_light(d) <= std::max(no_light_made, least))
       all.push_back(candidate(d.id, is_reference ? 0 : *off, *t));
   }
-  const auto* taken = choose(all, cheap_id, side_by_side, whole_model_ns(f));
+  const auto* taken = choose(all, cheap_id, side_by_side);
   const auto lambert = form_of(cheap_id);
   const auto* time = time_of(f.in_cache, cheap_id);
   if (!taken || lambert == f.diffuse.end() || !time) return;
@@ -493,9 +487,10 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                    rounded_up(std::sqrt(*half->safe_from))),
        fmt::format("half precision is used for D only: then α clamped to at least {}{}",
                    rounded_up(*own->safe_from),
-                   kept && kept->safe_from ? fmt::format("; {} if the processor keeps subnormals",
-                                                         rounded_up(*kept->safe_from))
-                                           : "")});
+                   kept && kept->safe_from
+                       ? fmt::format(", or to {} if the processor keeps subnormals",
+                                     rounded_up(*kept->safe_from))
+                       : "")});
 }
 
 }  // namespace
@@ -505,22 +500,17 @@ const Facts::Time* time_of(const std::vector<Facts::Time>& times, std::string_vi
   return at == times.end() ? nullptr : &*at;
 }
 
-const Candidate* choose(std::span<const Candidate> all,
-                        std::string_view cheap,
-                        double enough,
-                        double whole_ns) {
+const Candidate* choose(std::span<const Candidate> all, std::string_view usual, double enough) {
   const Candidate *nearest = nullptr, *cheapest = nullptr;
   for (const auto& c : all) {
+    if (c.form == usual && c.error <= enough) return &c;
     if (!nearest || c.error < nearest->error) nearest = &c;
     if (c.error <= enough && (!cheapest || c.ns < cheapest->ns)) cheapest = &c;
   }
   if (!cheapest) return nearest;
   const Candidate* taken = cheapest;
-  for (const auto& c : all) {
-    if (c.error > enough || saves_enough(*cheapest, c, whole_ns)) continue;
-    if (c.form == cheap) return &c;
-    if (c.error < taken->error) taken = &c;
-  }
+  for (const auto& c : all)
+    if (c.error < taken->error && !saves_enough(*cheapest, c)) taken = &c;
   return taken;
 }
 

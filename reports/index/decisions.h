@@ -35,14 +35,9 @@ struct Candidate {
   double ns, spread;           ///< time of a sample [ns]
   std::vector<double> each{};  ///< the same in each process that measured; empty: one alone
 };
-/// The cheapest of those whose error is at most `enough`; of several whose times differ by less than a tenth, or by nothing that
-/// survives (timing.h), the cheap form, else the nearest.  If none is good enough, the nearest of all.  nullptr of none.
-/// \param cheap  form that is shipped unless it shows
-/// \param whole_ns  time of what the form is a part of, of which the tenth is; 0: the form is the whole
-const Candidate* choose(std::span<const Candidate>,
-                        std::string_view cheap,
-                        double enough,
-                        double whole_ns = 0);
+/// The usual form, if its error is at most `enough`; else the cheapest of those whose error is, and the nearest of several whose times
+/// differ by less than a tenth, or by nothing that survives (timing.h).  If none is good enough, the nearest of all.  nullptr of none.
+const Candidate* choose(std::span<const Candidate>, std::string_view usual, double enough);
 
 /// The time of a form or model among these; null: it was not timed.
 const Facts::Time* time_of(const std::vector<Facts::Time>&, std::string_view id);

@@ -378,11 +378,10 @@ std::string index_page_html(const ReportIndex& i) {
        "",
        {Pairs{
            {{"Choice",
-             {fmt::format("The table takes the cheapest form with a small error: up to ΔE2000 {}, "
-                          "or an RMS error of {} in G₂. A usual form with a small error is taken "
-                          "before the cheapest if they differ by at most a tenth of a whole "
-                          "model's time. If no form has a small "
-                          "error, the one with the least error is taken.",
+             {fmt::format("An error is small up to ΔE2000 {}, or an RMS of {} in G₂. A usual form "
+                          "with a small error is kept. Otherwise the table takes the cheapest form "
+                          "with a small error. If there is none, it takes the form with the least "
+                          "error.",
                           plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "

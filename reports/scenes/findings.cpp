@@ -62,11 +62,14 @@ void savings(Findings& to, const ScenesRows& r) {
   }
   const auto& most = *std::ranges::max_element(held, {}, saved);
   const auto up_to = percent(saved(most), 2);
-  const auto save = of_all(held.size() - none.size() - slower.size(), held.size());
-  to.say(fmt::format(
-      "At {}, plans are faster than all effects of the material in {} scenes whose plans hold. The "
-      "most is saved for {}: {} of a float shader's time.",
-      no_difference, save, scene_text(most), up_to));
+  const auto faster = held.size() - none.size() - slower.size();
+  auto sentence = fmt::format(
+      "At {}, plans are faster than all effects of the material in {} scenes whose plans hold.",
+      no_difference, of_all(faster, held.size()));
+  if (faster > 0)
+    sentence += fmt::format(" The most is saved for {}: {} of a float shader's time.",
+                            scene_text(most), up_to);
+  to.say(std::move(sentence));
   if (!none.empty())
     to.say(fmt::format("The plan is about as fast as all effects for {}.", scenes_text(none)));
   const auto slowest_of = [](const std::vector<const SceneRow*>& rows) {
@@ -86,13 +89,11 @@ void savings(Findings& to, const ScenesRows& r) {
                        by_table ? "set of forms without the tabulated light between facets"
                                 : "set of forms as fast as all effects"));
   }
-  to.headline =
-      fmt::format("In {} scenes, leaving out effects that nobody sees saves up to {} of the time.",
-                  of_all(held.size() - none.size() - slower.size(), r.rows.size()), up_to);
-  if (!slower.empty())
-    to.headline += fmt::format(
-        " In {} others it saves nothing, because only costly forms are proven accurate enough.",
-        slower.size());
+  to.headline = faster == 0 ? "Leaving out effects that nobody sees saves no time in these scenes."
+                            : fmt::format(
+                                  "In {} scenes, leaving out effects that nobody sees saves time, "
+                                  "up to {}.",
+                                  of_all(faster, r.rows.size()), up_to);
   if (held.size() < r.rows.size())
     to.headline += fmt::format(" In {}, the plan fails its check.", r.rows.size() - held.size());
   to.say(fmt::format(

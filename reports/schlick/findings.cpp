@@ -64,7 +64,7 @@ void below_one_percent(Findings& to, const SchlickRows& r) {
                     all = outside.size() + metals.size();
   to.judge(
       "Schlick's error is below 1 %", "", verdict(some == all, 2 * some > all),
-      fmt::format("glass: off by up to {} of full light, or by {} of F", rounded_up(g->max_abs),
+      fmt::format("glass: absolute error up to {}, relative error up to {}", rounded_up(g->max_abs),
                   percent_at_most(g->max_rel)),
       fmt::format("{} IORs of dielectrics and channels of metals are within 0.01 at all angles.",
                   of_all(some, all)));
@@ -78,13 +78,12 @@ void only_near_one(Findings& to, const SchlickRows& r) {
   constexpr double poor = 0.05;
   const auto &low = *outside.front(), &high = *outside.back();
   const bool near = low.max_abs > poor, only = near && high.max_abs < poor && metal->max_abs < poor;
-  to.judge(
-      "Schlick is accurate enough; near a relative IOR of 1 its error is larger",
-      "Disney, SIGGRAPH 2015", verdict(only, near),
-      fmt::format("off by up to {} of full light at IOR {:g}, by {} for {}",
-                  rounded_up(low.max_abs), index(low), rounded_up(metal->max_abs), metal->material),
-      fmt::format("from IOR {:g} on the error grows again, to {} at IOR {:g}.", index(*best),
-                  rounded_up(high.max_abs), index(high)));
+  to.judge("Schlick is accurate enough; near a relative IOR of 1 its error is larger",
+           "Disney, SIGGRAPH 2015", verdict(only, near),
+           fmt::format("absolute error up to {} at IOR {:g}, {} for {}", rounded_up(low.max_abs),
+                       index(low), rounded_up(metal->max_abs), metal->material),
+           fmt::format("from IOR {:g} on the error grows again, to {} at IOR {:g}.", index(*best),
+                       rounded_up(high.max_abs), index(high)));
 }
 
 void from_inside(Findings& to, const SchlickRows& r) {

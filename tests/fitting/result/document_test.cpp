@@ -16,7 +16,7 @@ FitDocument example() {
   using enum ParameterStatus;
   FitDocument d;
   d.model = "lambert+ggx/smith_ggx.correlated/schlick";
-  d.parameters = {{"alpha", {0.25}, {0.01}, {0.23}, {0.27}, {free}, {none}, {""}},
+  d.parameters = {{"alpha", {0.25}, {0.01}, {0.23}, {0.27}, {free}, {none}, {""}, {none}},
                   {"f0",
                    {0.04, none, 1},
                    {1e-3, none, none},
@@ -24,7 +24,8 @@ FitDocument example() {
                    {0.05, none, none},
                    {free, not_identifiable, at_bound},
                    {none, none, none},
-                   {"", "why", ""}}};
+                   {"", "why", ""},
+                   {none, none, none}}};
   d.metric = "log";
   d.residuals = {0.1, 0.2, {{"theta_i", 0, 30, 12, 0.1, 0.2}}};
   d.free_names = {"alpha", "f0.r"};
@@ -46,7 +47,7 @@ TEST(FitDocument, FollowsTheContract) {
              R"({"schema":"gonio.fit/1","model":"lambert+ggx/smith_ggx.correlated/schlick",)");
   EXPECT_HAS(
       text,
-      R"("alpha":{"value":0.25,"std_error":0.01,"ci95":[0.23,0.27],"status":"free","limit":null,"reason":""})");
+      R"("alpha":{"value":0.25,"std_error":0.01,"ci95":[0.23,0.27],"status":"free","limit":null,"excluded":null,"reason":""})");
   EXPECT_HAS(text, R"("f0":{"value":[0.04,null,1.0],"std_error":[0.001,null,null],)");
   EXPECT_HAS(text, R"("ci95":[[0.03,0.05],[null,null],[null,null]],)");
   EXPECT_HAS(text, R"("status":["free","not_identifiable","at_bound"])");

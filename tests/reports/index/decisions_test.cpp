@@ -84,35 +84,24 @@ const Decision& about(const std::vector<Decision>& all, std::string_view subject
   return at == all.end() ? none : *at;
 }
 
-TEST(Choose, TakesAFormThatIsCheaperAndNearer) {
-  const std::vector<Candidate> all{{"cheap", 0.5, 1, 0.01}, {"better", 0.4, 0.5, 0.01}};
-  EXPECT_EQ(choose(all, "cheap", 1)->form, "better");
+TEST(Choose, KeepsTheUsualFormExactlyWhereItsErrorIsSmall) {
+  const std::vector<Candidate> all{{"nearer and cheaper", 0.1, 0.5, 0.01}, {"usual", 0.5, 1, 0.01}};
+  EXPECT_EQ(choose(all, "usual", 0.5)->form, "usual");
+  EXPECT_EQ(choose(all, "usual", 0.3)->form, "nearer and cheaper");
 }
-TEST(Choose, KeepsTheCheapFormWhereSpreadsDoNotTellThemApart) {
-  const std::vector<Candidate> all{{"as fast", 0.1, 0.95, 0.04}, {"cheap", 0.5, 1, 0.04}};
-  EXPECT_EQ(choose(all, "cheap", 1)->form, "cheap");
-  EXPECT_EQ(choose(all, "cheap", 0.3)->form, "as fast");
-}
-TEST(Choose, KeepsTheUsualFormWhereAnotherSavesLessThanATenth) {
-  EXPECT_EQ(choose(std::vector<Candidate>{{"other", 0.5, 0.95, 0.001}, {"cheap", 0.5, 1, 0.001}},
-                   "cheap", 1)
+TEST(Choose, TakesTheCheapestElseTheNearestOfThoseAsFastElseTheNearestOfAll) {
+  const std::vector<Candidate> all{{"a", 0.5, 1, 0.1}, {"b", 0.2, 1.05, 0.1}, {"c", 0.1, 3, 0.1}};
+  EXPECT_EQ(choose(all, "usual", 1)->form, "b") << "within both spreads";
+  EXPECT_EQ(
+      choose(std::vector<Candidate>{{"a", 0.5, 1, 0.001}, {"b", 0.2, 1.05, 0.001}}, "usual", 1)
+          ->form,
+      "b")
+      << "less than a tenth";
+  EXPECT_EQ(choose(std::vector<Candidate>{{"a", 0.5, 1, 0.001}, {"b", 0.2, 1.2, 0.001}}, "usual", 1)
                 ->form,
-            "cheap");
-  EXPECT_EQ(choose(std::vector<Candidate>{{"other", 0.5, 0.85, 0.001}, {"cheap", 0.5, 1, 0.001}},
-                   "cheap", 1)
-                ->form,
-            "other");
-  EXPECT_EQ(choose(std::vector<Candidate>{{"other", 0.5, 0.85, 0.001}, {"cheap", 0.5, 1, 0.001}},
-                   "cheap", 1, 2)
-                ->form,
-            "cheap")
-      << "of the model that it is a part of, it is less";
-}
-TEST(Choose, TakesTheNearestOfThoseThatAreAsFastAndOfAllIfNoneIsGood) {
-  const std::vector<Candidate> all{{"a", 0.5, 1, 0.1}, {"b", 0.2, 1.1, 0.1}, {"c", 0.1, 3, 0.1}};
-  EXPECT_EQ(choose(all, "cheap", 1)->form, "b");
-  EXPECT_EQ(choose(all, "cheap", 0.01)->form, "c");
-  EXPECT_EQ(choose({}, "cheap", 1), nullptr);
+            "a");
+  EXPECT_EQ(choose(all, "usual", 0.01)->form, "c");
+  EXPECT_EQ(choose({}, "usual", 1), nullptr);
 }
 
 TEST(Decisions, OfferAsCheaperOnlyWhatEveryProcessFindsCheaper) {

@@ -304,6 +304,14 @@ TEST(ScenesFindings, CountAPlanAsFasterWhereItsTableSaysSo) {
   counted(1.12, "In 1 of 3 scenes, leaving out");
 }
 
+TEST(ScenesFindings, PromiseNoTimeWhereNoPlanSavesAny) {
+  auto r = made_rows();
+  for (auto& row : r.rows) row.speedup_float = 1;
+  const auto f = findings(r);
+  EXPECT_EQ(f.headline, "Leaving out effects that nobody sees saves no time in these scenes.");
+  EXPECT_EQ(f.sentences[0].find("The most is saved"), std::string::npos) << f.sentences[0];
+}
+
 TEST(ScenesFindings, BlameTheTableOnlyWhereAPlanKeepsIt) {
   auto r = made_rows();
   r.rows[0].ns_float = 200, r.rows[0].speedup_float = 0.05, r.rows[0].needs_table = true;

@@ -258,10 +258,10 @@ TEST(SchlickReport, TheVerdictsAreMadeFromTheFigures) {
     return std::ranges::any_of(all, [&](const std::string& f) { return f.find(words) != f.npos; });
   };
   EXPECT_TRUE(said(smooth(), "below 1 %” does not hold"));
-  EXPECT_TRUE(said(smooth(), "Glass: off by up to 0.036 of full light, or by "));
+  EXPECT_TRUE(said(smooth(), "Glass: absolute error up to 0.036, relative error up to "));
   EXPECT_TRUE(said(smooth(), "“most non-metals have F0 0.02 to 0.04” does not hold"));
   EXPECT_TRUE(said(smooth(), "near a relative IOR of 1 its error is larger” holds in part"));
-  EXPECT_TRUE(said(smooth(), "Off by up to 0.22 of full light at IOR 1.1, "))
+  EXPECT_TRUE(said(smooth(), "Absolute error up to 0.22 at IOR 1.1, "))
       << "the number it is judged on";
   EXPECT_TRUE(said(smooth(), "has no error where a channel has one n and one k: Gulbrandsen"));
   EXPECT_FALSE(said(smooth(), "one k: exact"));
