@@ -404,7 +404,9 @@ std::string index_page_html(const ReportIndex& i) {
              {"The light is even. The reference is the transport of light between facets. Only "
               "Fdez-Agüera's compensation is compared: it was made for the split sum."}},
             {"Split sum",
-             {"ΔE is a mean over views, rounded up. The row is listed because engines ship it: no "
+             {"ΔE is a mean over ways to turn surface and viewer together under the sky, rounded "
+              "up. "
+              "The row is listed because engines ship it: no "
               "threshold judges it. The exposure "
               "makes a white ball half as bright as the display's white."}},
             {"Diffuse",

@@ -137,14 +137,15 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
                        beside(half.value / half.smith, "darker", "brighter"), half.nov),
            fmt::format("at roughness {:g} G1 is {:.3f}, exactly {:.3f}.", half.roughness,
                        half.value, half.smith));
-  to.judge("with k = (r+1)²/8 the edge is 72 % darker, like that of a medium roughness", "",
-           verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith,
-                   std::abs(1 - remapped.value - 0.72) < 0.005),
-           fmt::format("{1} is right, but at roughness {0:.2g} exact Smith's edge is {2} darker",
-                       remapped.roughness, percent(1 - remapped.value, 2),
-                       percent(1 - remapped.smith, 2)),
-           fmt::format("at NoV {:g} G1 is {:.3f}, exactly {:.3f}.", remapped.nov, remapped.value,
-                       remapped.smith));
+  to.judge(
+      "with k = (r+1)²/8 the edge is 72 % darker, like that of a medium roughness", "",
+      verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith,
+              std::abs(1 - remapped.value - 0.72) < 0.005),
+      fmt::format(
+          "it masks {1} of the light there, as claimed; exact Smith of roughness {0:.2g} masks {2}",
+          remapped.roughness, percent(1 - remapped.value, 2), percent(1 - remapped.smith, 2)),
+      fmt::format("at NoV {:g} G1 is {:.3f}, exactly {:.3f}.", remapped.nov, remapped.value,
+                  remapped.smith));
 }
 
 /// Largest factor, up or down, by which a ratio that is so many times as large is off.
