@@ -68,7 +68,7 @@ class Sayings {
                                     "ggx/smith_ggx.correlated/schlick", best_, "streaming");
     if (!cache || !streaming) return;
     const auto text = [&](const CostSwitch& s) {
-      if (s.differs) return s.ns > 0 ? ns_text(s.ns) + " more" : std::string("no more");
+      if (s.differs) return s.ns > 0 ? ns_text(s.ns) + " more" : std::string("nothing");
       return fmt::format("nothing that shows (± {})", ns_text(s.ns_spread));
     };
     said_.headline = fmt::format(

@@ -404,10 +404,8 @@ std::string index_page_html(const ReportIndex& i) {
              {"The light is even. The reference is the transport of light between facets. Only "
               "Fdez-Agüera's compensation is compared: it was made for the split sum."}},
             {"Split sum",
-             {"ΔE is a mean over ways to turn surface and viewer together under the sky, rounded "
-              "up. "
-              "The row is listed because engines ship it: no "
-              "threshold judges it. The exposure "
+             {"ΔE is averaged over the surface's orientations under the sky, then rounded up. The "
+              "row is listed because engines ship it: no threshold judges it. The exposure "
               "makes a white ball half as bright as the display's white."}},
             {"Diffuse",
              {fmt::format(

@@ -473,14 +473,14 @@ TEST(CostPictures, AreWhole) {
   EXPECT_TRUE(said.headline.starts_with("Exact Smith in place of Schlick's k costs "));
 }
 
-TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNoMore) {
+TEST(CostFindings, BeginWithWhatExactSmithCostsAndCallLessNothing) {
   auto rows = small_rows();
   rows.others = 1.3;
   for (auto& s : rows.switches) s.differs = true, s.ns = s.memory == "cache" ? 0.234 : -0.05;
   const auto said = findings(rows);
   EXPECT_EQ(said.sentences[0], said.headline) << "before it tells of other programs";
   EXPECT_NE(said.headline.find(" 0.23 ns more if its inputs are in cache. In a whole GGX model "
-                               "that reads its inputs from memory it costs no more."),
+                               "that reads its inputs from memory it costs nothing."),
             std::string::npos)
       << said.headline;
   for (auto& s : rows.switches)
