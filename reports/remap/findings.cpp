@@ -142,7 +142,7 @@ void verdict_on_g1(Findings& to, const RemapRows& r) {
       verdict(std::abs(remapped.value - remapped.smith) < 0.05 * remapped.smith,
               std::abs(1 - remapped.value - 0.72) < 0.005),
       fmt::format(
-          "it masks {1} of the light there, as claimed; exact Smith of roughness {0:.2g} masks {2}",
+          "it masks {1} of the light there; exact Smith of a medium roughness ({0:.2g}) masks {2}",
           remapped.roughness, percent(1 - remapped.value, 2), percent(1 - remapped.smith, 2)),
       fmt::format("at NoV {:g} G1 is {:.3f}, exactly {:.3f}.", remapped.nov, remapped.value,
                   remapped.smith));

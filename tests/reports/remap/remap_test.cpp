@@ -221,7 +221,7 @@ TEST(RemapReport, FindingsJudgeTheClaimsFromTheFigures) {
   EXPECT_TRUE(said("“k = α/2 is too bright at grazing angles” does not hold"));
   EXPECT_EQ(all.claims[1].figure, "13\u00a0% darker than exact Smith at NoV 0.1");
   EXPECT_EQ(all.claims[2].figure,
-            "it masks 72\u00a0% of the light there, as claimed; exact Smith of roughness 0.5 masks "
+            "it masks 72\u00a0% of the light there; exact Smith of a medium roughness (0.5) masks "
             "46\u00a0%");
   EXPECT_TRUE(said("“F V ≈ 1/(LoH²(r+0.5))” does not hold. Off by a factor of up to "));
   for (auto& row : r.rows)  // were it the other way round
