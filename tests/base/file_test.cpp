@@ -23,6 +23,7 @@
 namespace {
 std::string order;    ///< of what was synced and renamed: (d)ata, (r)enamed, (f)older
 unsigned slowly = 0;  ///< microseconds that a renaming takes
+int asked = 0;        ///< how often a lock was asked for
 }
 
 // In place of the library's, as the room calls them: to see their order.
@@ -39,6 +40,10 @@ extern "C" int rename(const char* from, const char* to) noexcept {
   order += 'r';
   ::usleep(slowly);
   return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
+}
+extern "C" int flock(int file, int how) noexcept {
+  ++asked;
+  return static_cast<int>(::syscall(SYS_flock, file, how));
 }
 
 namespace gonio {
@@ -497,6 +502,22 @@ TEST(CommitAll, LeavesTheFilesOfOneRunWhereTwoWriteTheSameNames) {
     for (const pid_t child : {run("one"), run("other")}) ::waitpid(child, nullptr, 0);
     EXPECT_EQ(test::read_bytes(folder / "table"), test::read_bytes(folder / "beside"));
   }
+}
+
+TEST(CommitAll, WaitsNeitherForTheLockOfItsOwnRunNorWithOneFile) {
+  const Folder folder;
+  const auto locks_asked_for = [&](bool is_alone) {
+    OutputFile one(folder / "made/one"), other(folder / "made/other");
+    asked = 0;
+    commit_all(std::array{&one, is_alone ? nullptr : &other});
+    return asked;
+  };
+  {
+    const FolderLock mine(folder / "made", FolderLock::Taken::is_refused);
+    EXPECT_EQ(locks_asked_for(false), 0);
+  }
+  EXPECT_EQ(locks_asked_for(false), 1) << "somebody else may have it now";
+  EXPECT_EQ(locks_asked_for(true), 0) << "nothing comes between one file";
 }
 
 TEST(FolderLock, IsOfOneAtATime) {
