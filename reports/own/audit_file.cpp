@@ -138,7 +138,7 @@ std::string slip_of_directions(std::size_t term) {
       over_hemisphere < enough ? "whole sphere" : "hemisphere");
 }
 
-FunctionAudit audit_function(const FileFunction& of) {
+FunctionAudit audit_function(const FileFunction& of, bool looks_in_half) {
   FunctionAudit a{of};
   const auto& f = *of.function;
   if (!is_audited(f)) return a;
@@ -171,7 +171,7 @@ FunctionAudit audit_function(const FileFunction& of) {
     name.reading.includes = f.includes == "pi" ? "nothing" : "cosine";
     FileFunction again = of;
     again.function = foreign::read_function(name);
-    return audit_function(again);
+    return audit_function(again, looks_in_half);
   }
   // Light and view that graze from opposite sides leave no half vector: most shaders exclude it.
   constexpr Range cosines{0.05, 1};
@@ -184,7 +184,8 @@ FunctionAudit audit_function(const FileFunction& of) {
     domain.emplace_back("nol", cosines);
     domain.emplace_back("nov", cosines);
   }
-  a.half = (role == Role::diffuse ? "for NoL and NoV from 0.05: " : "") + in_half(term, domain);
+  if (looks_in_half)
+    a.half = (role == Role::diffuse ? "for NoL and NoV from 0.05: " : "") + in_half(term, domain);
   const bool is_looked_up = role != Role::ndf || a.laws.normalisation;
   if (!a.model && is_looked_up && (role != Role::diffuse || !f.anisotropic)) {
     constexpr double far_off = 0.5;  // no form resembles it
@@ -229,13 +230,14 @@ bool is_audited(const foreign::Function& f) {
 }
 
 std::vector<FunctionAudit> audit_file(const std::string& name,
-                                      const std::function<void(const std::string&)>& begins) {
+                                      const std::function<void(const std::string&)>& begins,
+                                      bool looks_in_half) {
   std::vector<FunctionAudit> all;
   for (auto& f : file_functions(name).functions) {
     const bool is_named = !foreign::parse_name(name).function.empty();
     if (f.function && begins) begins(f.entry.function);
     if (f.function) try {
-        all.push_back(audit_function(f));
+        all.push_back(audit_function(f, looks_in_half));
         continue;
       } catch (const Error& e) {
         if (is_named) throw;

@@ -19,15 +19,19 @@ namespace gonio {
 #define SKIP_WITHOUT_SHADERS \
   if (!foreign::can_compile()) GTEST_SKIP() << "this build reads no shaders"
 
-/// The audit of a text's first function, or of another, once in a run.
+/// The audit of a text's first function, or of another, but for what it keeps in half, once in a run.
 inline const FunctionAudit& audited(const std::string& text, std::size_t function = 0) {
   static std::map<std::pair<std::string, std::size_t>, FunctionAudit> known;
   const auto [at, fresh] = known.try_emplace({text, function});
   if (fresh) {
     const test::Folder folder;
-    at->second = audit_file(folder.write("case.glsl", text))[function];
+    at->second = audit_file(folder.write("case.glsl", text), {}, false)[function];
   }
   return at->second;
+}
+inline std::string half_of(const std::string& text) {
+  const test::Folder folder;
+  return audit_file(folder.write("case.glsl", text))[0].half;
 }
 inline std::string slips(const FunctionAudit& a) {
   std::string all;

@@ -26,7 +26,7 @@ const FunctionAudit& masking(const std::string& body) {
   const auto [at, fresh] = known.try_emplace(body);
   if (fresh) {
     const test::Folder folder;
-    at->second = audit_file(folder.write("case.glsl", masking_of(body)) + ":V_term")[0];
+    at->second = audit_file(folder.write("case.glsl", masking_of(body)) + ":V_term", {}, false)[0];
   }
   return at->second;
 }
