@@ -291,7 +291,7 @@ BatchSummary gather(const std::string& folder,
   std::optional<OutputFile> html;
   if (page)
     html.emplace(place(folder, "summary.html"), NamedBy::gonio).write(page(s, title_of(folder)));
-  commit_all(std::array{&csv, &page_data, html ? &*html : nullptr});
+  commit_all(std::array{&csv, &page_data, html ? &*html : nullptr}, &lock);
   return s;
 }
 

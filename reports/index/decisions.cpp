@@ -68,13 +68,13 @@ bool is_exact(const Candidate& c) {
   return c.error < 5e-3;
 }
 
-/// Cost of the cheap form.
+/// Cost of the usual form.
 constexpr std::string_view no_more = "none (the usual form)";
 
 /// "+0.40 ns", or that it takes no more.
-std::string cost_text(const Candidate& taken, const Candidate& cheap) {
-  if (&taken == &cheap || taken.form == cheap.form) return std::string(no_more);
-  const auto d = more(cheap, taken);
+std::string cost_text(const Candidate& taken, const Candidate& usual) {
+  if (&taken == &usual || taken.form == usual.form) return std::string(no_more);
+  const auto d = more(usual, taken);
   if (!d.survives) return "none measured";
   return (d.ns < 0 ? "−" : "+") + ns_text(d.ns);
 }
@@ -89,8 +89,8 @@ void masking(std::vector<Decision>& to, const Facts& f) {
   Candidates all;
   for (const auto& m : f.masking)
     if (const auto* t = time_of(f.in_cache, m.form)) all.push_back(candidate(m.form, m.rms, *t));
-  const auto *cheap = find(all, direct), *taken = choose(all, direct, small_masking_error);
-  if (!cheap || !taken) return;
+  const auto *usual = find(all, direct), *taken = choose(all, direct, small_masking_error);
+  if (!usual || !taken) return;
   const auto rms = [](const Candidate& c) {
     return fmt::format("RMS error {:.2g} in G₂", c.error);
   };
@@ -106,8 +106,8 @@ void masking(std::vector<Decision>& to, const Facts& f) {
       other = nullptr;
   }
   to.push_back({"Masking", name_of_form(taken->form), taken->form,
-                is_exact(*taken) ? fmt::format("none (Schlick's k: {})", rms(*cheap)) : rms(*taken),
-                cost_text(*taken, *cheap), other ? cheaper_text(*other, rms(*other)) : ""});
+                is_exact(*taken) ? fmt::format("none (Schlick's k: {})", rms(*usual)) : rms(*taken),
+                cost_text(*taken, *usual), other ? cheaper_text(*other, rms(*other)) : ""});
 }
 
 // --- Distribution ---
@@ -119,7 +119,7 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
              *gtr = time_of(f.whole, "gtr/smith_gtr.correlated/schlick");
   if (!ggx || !gtr || !f.tails) return;
   const auto& t = *f.tails;
-  const auto cheap = candidate(ggx->id, 0, *ggx), other = candidate(gtr->id, 0, *gtr);
+  const auto usual = candidate(ggx->id, 0, *ggx), other = candidate(gtr->id, 0, *gtr);
   const auto factor = [](double log_rms) { return fmt::format("×/÷ {:.3g}", std::exp(log_rms)); };
   to.push_back(
       {"Distribution", name_of_form("ndf.ggx"), "ndf.ggx",
@@ -130,7 +130,7 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
        std::string(no_more),
        fmt::format("you fit gamma, too (median {:.2g}): then GTR with its own Smith, typically {}, "
                    "{}",
-                   t.gamma, factor(t.gtr_log_rms), cost_text(other, cheap))});
+                   t.gamma, factor(t.gtr_log_rms), cost_text(other, usual))});
 }
 
 // --- Fresnel ---
@@ -227,8 +227,8 @@ void fresnel_of(std::vector<Decision>& to,
                 bool is_all,
                 bool is_rest) {
   const auto all = fresnel_candidates(f, kind, materials);
-  const auto *cheap = find(all, schlick), *taken = choose(all, schlick, side_by_side);
-  if (!cheap || !taken) return;
+  const auto *usual = find(all, schlick), *taken = choose(all, schlick, side_by_side);
+  if (!usual || !taken) return;
   const std::string kinds = kind == "metal" ? "metals" : "dielectrics";
   const auto names = materials_text(materials);
   Decision d;
@@ -237,9 +237,9 @@ void fresnel_of(std::vector<Decision>& to,
                         : fmt::format("Fresnel of {}", names);
   d.take = name_of_form(taken->form);
   d.take_id = id_of(taken->form);
-  d.cost = cost_text(*taken, *cheap);
+  d.cost = cost_text(*taken, *usual);
   const auto worst = std::ranges::max_element(materials, {}, &Shown::delta_e);
-  if (taken == cheap) {
+  if (taken == usual) {
     d.error = delta_at_most(taken->error);
     d.unless = seen_side_by_side(f, kind, materials);
   } else {
@@ -247,10 +247,10 @@ void fresnel_of(std::vector<Decision>& to,
                           is_exact(*taken) ? "none" : delta_at_most(taken->error),
                           delta_at_most(worst->delta_e), material_text(worst->material));
     const double head_on = std::ranges::max(materials, {}, &Shown::head_on).head_on;
-    if (is_clearly_cheaper(*cheap, *taken))
+    if (is_clearly_cheaper(*usual, *taken))
       d.unless = head_on <= just_seen
                      ? "it is seen only head on: then Schlick, " + delta_at_most(head_on)
-                     : cheaper_text(*cheap, delta_at_most(cheap->error));
+                     : cheaper_text(*usual, delta_at_most(usual->error));
   }
   to.push_back(std::move(d));
 }
@@ -413,7 +413,7 @@ void image_light(std::vector<Decision>& to, const Facts& f) {
 
 /// Diffuse terms by how they look at equal albedo: matte surfaces beside EON, and what lies below a lobe beside EON coupled by albedos.
 void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
-  constexpr std::string_view cheap_id = "diffuse.lambert";
+  constexpr std::string_view usual_id = "diffuse.lambert";
   Candidates all;
   const auto form_of = [&](std::string_view id) {
     return std::ranges::find(f.diffuse, id, &Facts::Diffuse::id);
@@ -432,21 +432,21 @@ void diffuse(std::vector<Decision>& to, const Facts& f, bool below_lobe) {
     if (t && (off || is_reference) && most_light(d) <= std::max(no_light_made, least))
       all.push_back(candidate(d.id, is_reference ? 0 : *off, *t));
   }
-  const auto* taken = choose(all, cheap_id, side_by_side);
-  const auto lambert = form_of(cheap_id);
-  const auto* time = time_of(f.in_cache, cheap_id);
+  const auto* taken = choose(all, usual_id, side_by_side);
+  const auto lambert = form_of(usual_id);
+  const auto* time = time_of(f.in_cache, usual_id);
   if (!taken || lambert == f.diffuse.end() || !time) return;
-  const auto cheap = candidate(std::string(cheap_id), 0, *time);
+  const auto usual = candidate(std::string(usual_id), 0, *time);
   const auto& own = below_lobe ? lambert->below_lobe : lambert->matte;
   Decision d{below_lobe ? "Diffuse below a lobe (F0 0.04)" : "Diffuse of matte surfaces",
              name_of_form(taken->form),
              taken->form,
              is_exact(*taken) ? "none" : delta_at_most(taken->error),
-             cost_text(*taken, cheap),
+             cost_text(*taken, usual),
              ""};
   if (const double made = most_light(*form_of(taken->form)); below_lobe && made > no_light_made)
     d.error += fmt::format(", energy gain ≤ {}", percent_at_most(made - 1, 2));
-  if (taken->form != cheap_id && own)
+  if (taken->form != usual_id && own)
     d.error = fmt::format("{} (Lambert: {})", d.error, delta_at_most(*own));
   to.push_back(std::move(d));
 }

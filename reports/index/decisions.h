@@ -24,7 +24,7 @@ struct Decision {
   std::string take;     ///< name of the form
   std::string take_id;  ///< of the catalogue
   std::string error;    ///< that is left
-  std::string cost;     ///< over the cheap form
+  std::string cost;     ///< over the usual form
   std::string unless;   ///< when another is to be taken, and which; may be empty
 };
 

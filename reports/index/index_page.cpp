@@ -125,7 +125,7 @@ inline constexpr auto description<Decision> =
               Field{"take", &Decision::take, "name of the form"},
               Field{"take_id", &Decision::take_id, "of the catalogue"},
               Field{"error", &Decision::error, "that is left; in brackets an aside"},
-              Field{"cost", &Decision::cost, "over the cheap form; in brackets an aside"},
+              Field{"cost", &Decision::cost, "over the usual form; in brackets an aside"},
               Field{"unless", &Decision::unless, "when another is to be taken, and which"}};
 template <>
 inline constexpr auto description<Facts::Setting> =
@@ -378,11 +378,13 @@ std::string index_page_html(const ReportIndex& i) {
        "",
        {Pairs{
            {{"Choice",
-             {fmt::format("An error is small up to ΔE2000 {}, or an RMS of {} in G₂. A usual form "
-                          "with a small error is kept. Otherwise the table takes the cheapest form "
-                          "with a small error. If there is none, it takes the form with the least "
-                          "error.",
-                          plain(side_by_side), plain(small_masking_error))}},
+             {fmt::format(
+                 "An error is small up to ΔE2000 {}, or an RMS of {} in G₂. A usual form "
+                 "with a small error is kept. Otherwise the table takes the cheapest form "
+                 "with a small error. Times that differ by less than a tenth count as "
+                 "equal: then it takes the nearest form. If none has a small error, it takes "
+                 "the one with the least.",
+                 plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
               "0.05 to 1."}},

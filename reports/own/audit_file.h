@@ -39,7 +39,7 @@ struct FunctionAudit {
 bool is_audited(const foreign::Function&);
 /// Every function of a file, or the one that is named.
 /// \param begins  called with the name of each function before it is audited
-/// \param looks_in_half  false: `half` stays empty, which takes most of the time
+/// \param looks_in_half  which takes most of the time; false: `half` stays empty
 std::vector<FunctionAudit> audit_file(
     const std::string& name,
     const std::function<void(const std::string& function)>& begins = {},

@@ -458,14 +458,6 @@ void OutputFile::commit() {
   sync_folder(folder_of(target_));
 }
 
-namespace {
-
-using FolderNumbers = std::pair<dev_t, ino_t>;
-/// Folders that this thread has locked, which another descriptor of its own would wait for.
-thread_local std::set<FolderNumbers> locked_here;
-
-}  // namespace
-
 FolderLock::FolderLock(const std::string& folder, Taken taken) {
   for (;;) {
     if (taken == Taken::is_refused) make_folder(folder);
@@ -481,17 +473,14 @@ FolderLock::FolderLock(const std::string& folder, Taken taken) {
     struct stat mine {
     }, there{};
     if (!others && ::fstat(folder_, &mine) == 0 && ::stat(folder.c_str(), &there) == 0 &&
-        mine.st_ino == there.st_ino) {
-      locked_here.emplace(mine.st_dev, mine.st_ino);
+        mine.st_ino == there.st_ino)
       return;
-    }
     ::close(folder_);  // who had it may have taken it away
     if (others)
       throw bad_input(folder, "writing", "another run of gonio at work there", "one at a time");
   }
 }
 FolderLock::~FolderLock() {
-  if (struct stat s{}; ::fstat(folder_, &s) == 0) locked_here.erase({s.st_dev, s.st_ino});
   ::close(folder_);
 }
 
@@ -520,21 +509,20 @@ class Turn {
 
 }  // namespace
 
-void commit_all(std::span<OutputFile* const> files) {
+void commit_all(std::span<OutputFile* const> files, const FolderLock* held) {
   // Each folder once, by its numbers, and in one order for all runs: none waits for one that waits.
-  std::map<FolderNumbers, std::string> folders;
-  std::size_t count = 0;
+  std::map<std::pair<dev_t, ino_t>, std::string> folders;
   for (auto* f : files)
     if (f) {
       f->close();
-      ++count;
       if (struct stat s{}; ::stat(f->folder().c_str(), &s) == 0)
-        folders.emplace(FolderNumbers{s.st_dev, s.st_ino}, f->folder());
+        folders.emplace(std::pair{s.st_dev, s.st_ino}, f->folder());
     }
+  // Another descriptor would wait for the lock that this run has.
+  if (struct stat s{}; held && ::fstat(held->descriptor(), &s) == 0)
+    folders.erase({s.st_dev, s.st_ino});
   std::deque<Turn> turns;
-  if (count > 1)  // nothing comes between one file
-    for (const auto& [numbers, folder] : folders)
-      if (!locked_here.contains(numbers)) turns.emplace_back(folder);
+  for (const auto& [numbers, folder] : folders) turns.emplace_back(folder);
   for (auto* f : files)
     if (f) f->commit();
 }

@@ -136,6 +136,7 @@ class FolderLock {
   ~FolderLock();
   FolderLock(const FolderLock&) = delete;
   FolderLock& operator=(const FolderLock&) = delete;
+  int descriptor() const { return folder_; }
 
  private:
   int folder_ = -1;
@@ -148,7 +149,8 @@ void remove_unfinished_files_on_signals();
 /// All are whole before the first takes its name, and no other run's take theirs in between: of two runs with the same outputs all are
 /// of the later.  (Where a folder cannot be locked within two seconds, they go on without.)
 /// \param files  nullptr: none
-void commit_all(std::span<OutputFile* const> files);
+/// \param held  the lock of a folder that this run has; nullptr: none
+void commit_all(std::span<OutputFile* const> files, const FolderLock* held = nullptr);
 
 /// The whole of a small file at once.
 void write_file(const std::string& path, std::string_view bytes, NamedBy by = NamedBy::user);

@@ -12,6 +12,23 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <sys/file.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+namespace {
+int refused_locks = 0;  ///< that another had
+}
+
+// In place of the library's, as src/base calls it.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wshadow"  // a structure has that name, too
+extern "C" int flock(int file, int how) noexcept {
+  const auto status = static_cast<int>(::syscall(SYS_flock, file, how));
+  if (status != 0) ++refused_locks;
+  return status;
+}
+#pragma GCC diagnostic pop
 
 namespace gonio {
 namespace {
@@ -284,6 +301,14 @@ TEST(Gather, NamesItsPageAfterTheFolder) {
     gather(t.out + ending, {}, title);
     EXPECT_EQ(test::read_bytes(t.out + "/summary.html"), own + "out") << ending;
   }
+}
+
+TEST(Gather, DoesNotWaitForTheLockThatItHas) {
+  const Tables t;
+  t.fit({t.paths[0], t.paths[1]});
+  refused_locks = 0;
+  gather(t.out, {}, {});
+  EXPECT_EQ(refused_locks, 0);
 }
 
 TEST(Batch, AtOnceWithAnotherOfOtherTablesTheSummaryKnowsBoth) {

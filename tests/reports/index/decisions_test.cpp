@@ -90,7 +90,7 @@ TEST(Choose, KeepsTheUsualFormExactlyWhereItsErrorIsSmall) {
   EXPECT_EQ(choose(all, "usual", 0.3)->form, "nearer and cheaper");
 }
 TEST(Choose, TakesTheCheapestElseTheNearestOfThoseAsFastElseTheNearestOfAll) {
-  const std::vector<Candidate> all{{"a", 0.5, 1, 0.1}, {"b", 0.2, 1.05, 0.1}, {"c", 0.1, 3, 0.1}};
+  const std::vector<Candidate> all{{"a", 0.5, 1, 0.1}, {"b", 0.2, 1.15, 0.1}, {"c", 0.1, 3, 0.1}};
   EXPECT_EQ(choose(all, "usual", 1)->form, "b") << "within both spreads";
   EXPECT_EQ(
       choose(std::vector<Candidate>{{"a", 0.5, 1, 0.001}, {"b", 0.2, 1.05, 0.001}}, "usual", 1)
