@@ -480,11 +480,12 @@ void precision(std::vector<Decision>& to, const Facts& f) {
        fmt::format("sin² θ_h from |n × h|², α clamped to at least {}",
                    rounded_up(*half->safe_from)),
        "ndf.ggx",
-       fmt::format("off by ≤ {} (found by a search over angles up to "
-                   "{:.0f}°, with cosines in half precision)",
-                   percent(half->tolerance, 2), half->zenith_deg),
-       fmt::format("surfaces below roughness {0} look like {0}",
-                   rounded_up(std::sqrt(*half->safe_from))),
+       fmt::format("off by ≤ {0}; surfaces smoother than roughness {1} look too rough (found by a "
+                   "search over "
+                   "angles up to {2:.0f}°, with cosines in half precision)",
+                   percent(half->tolerance, 2), rounded_up(std::sqrt(*half->safe_from)),
+                   half->zenith_deg),
+       "not timed",
        fmt::format("half precision is used for D only: then α clamped to at least {}{}",
                    rounded_up(*own->safe_from),
                    kept && kept->safe_from

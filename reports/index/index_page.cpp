@@ -378,13 +378,12 @@ std::string index_page_html(const ReportIndex& i) {
        "",
        {Pairs{
            {{"Choice",
-             {fmt::format(
-                 "An error is small up to ΔE2000 {}, or an RMS of {} in G₂. A usual form "
-                 "with a small error is kept. Otherwise the table takes the cheapest form "
-                 "with a small error. Times that differ by less than a tenth count as "
-                 "equal: then it takes the nearest form. If none has a small error, it takes "
-                 "the one with the least.",
-                 plain(side_by_side), plain(small_masking_error))}},
+             {fmt::format("An error is small up to ΔE2000 {}, or an RMS of {} in G₂. A usual form "
+                          "with a small error is kept. Otherwise the table takes the cheapest form "
+                          "with a small error. Times that differ by less than a tenth count as "
+                          "equal: then the form with the least error is taken. If none has a small "
+                          "error, the one with the least is taken.",
+                          plain(side_by_side), plain(small_masking_error))}},
             {"Masking",
              {"The RMS error in G₂ with GGX, over roughness and over both cosines from "
               "0.05 to 1."}},

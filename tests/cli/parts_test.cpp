@@ -16,7 +16,8 @@ using nlohmann::json;
 /// Runs shell lines in the folder, with $gonio as the program; they may end as they will.
 void shell(const Folder& f, const std::string& lines) {
   f.write(".lines", "gonio=" + program() + "\n" + lines);
-  static_cast<void>(std::system(("cd '" + f / "" + "' && bash .lines >/dev/null 2>&1").c_str()));
+  [[maybe_unused]] const int status =
+      std::system(("cd '" + f / "" + "' && bash .lines >/dev/null 2>&1").c_str());
   fs::remove(f / ".lines");
 }
 /// Lines that run all parts of the list at once.

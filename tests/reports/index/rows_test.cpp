@@ -276,9 +276,9 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
   EXPECT_EQ(row.take, "sin² θ_h from |n × h|², α clamped to at least 0.038")
       << "at 0.037 it is not kept";
   EXPECT_EQ(row.error,
-            "off by ≤ 2.2\u00a0% (found by a search over angles up to 88°, with cosines in half "
-            "precision)");
-  EXPECT_EQ(row.cost, "surfaces below roughness 0.2 look like 0.2");
+            "off by ≤ 2.2\u00a0%; surfaces smoother than roughness 0.2 look too rough (found by a "
+            "search over angles "
+            "up to 88°, with cosines in half precision)");
   r.highlights[0].safe_from.reset();
   EXPECT_EQ(of(decisions(facts(r)), "Precision").take, "float instead");
 }

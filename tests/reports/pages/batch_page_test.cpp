@@ -8,7 +8,9 @@ namespace {
 BatchRow row_of(const std::string& path, double alpha) {
   BatchRow r;
   r.path = path, r.document = "a b.json", r.outcome = Exit::done;
-  r.fit = BatchFit{"lambert", {"f"}, {{"alpha", {alpha}, {0.1}, {ParameterStatus::free}}}};
+  auto& fit = r.fit.emplace();
+  fit.model = "lambert", fit.channels = {"f"};
+  fit.parameters = {{"alpha", {alpha}, {0.1}, {ParameterStatus::free}}};
   r.preview = Preview{{}, {0.5}, ""};
   return r;
 }
@@ -16,7 +18,7 @@ BatchRow row_of(const std::string& path, double alpha) {
 TEST(BatchPage, AHostileNameStaysText) {
   BatchSummary s;
   s.rows.push_back(row_of("</script><img src=x onerror=alert(1)>.csv", 0.2));
-  s.rows.push_back({"<img>.csv", "", Exit::bad_input, "<img>"});
+  s.rows.push_back({"<img>.csv", "", Exit::bad_input, "<img>", {}, {}});
   EXPECT_EQ(batch_page_html(s, "<img>").find("<img"), std::string::npos);
 }
 
