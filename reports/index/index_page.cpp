@@ -422,14 +422,13 @@ std::string index_page_html(const ReportIndex& i) {
              {"The greatest value that was computed. Between the roughnesses, views and points "
               "that were computed it may be larger."}},
             {"Times",
-             {std::string(
-                  is_timed_in_several_processes(i.facts)
-                      ? "Both forms of a cost are timed in several processes. The cost is "
-                        "the median of their differences. It counts if it has the same "
-                        "sign in every process and is larger than the spread and than 3 % "
-                        "of the time. "
-                      : "Times are medians of one process (--quick). A cost "
-                        "counts if it is larger than the spreads of both forms' times together. ") +
+             {std::string(is_timed_in_several_processes(i.facts)
+                              ? "Both forms of a cost are timed in several processes. The cost is "
+                                "the median of their differences. It is shown if it has the same "
+                                "sign in every process and is larger than the spread and than 3 % "
+                                "of the time. "
+                              : "Times are medians of one process (--quick). A cost is shown if it "
+                                "exceeds the sum of the spreads of both times. ") +
               (is_timed_in_several_processes(i.facts) ? "Compensations are timed in one process."
                                                       : "") +
               (i.facts.tails
