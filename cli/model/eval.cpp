@@ -85,7 +85,7 @@ void add_eval(CommandLine& line) {
   auto [c, o] = line.command<EvalCall>(
       "eval",
       "Evaluates a model, or a table between its samples, at the directions of a "
-      "CSV file: f_r, f_g, f_b in 1/sr, no cosine",
+      "CSV file: f_r, f_g, f_b, or f of one channel, in 1/sr, no cosine",
       "gonio eval ggx/smith_ggx.correlated/conductor --set alpha=0.2 metal=Au "
       "--directions in.csv -o out.csv",
       run);
