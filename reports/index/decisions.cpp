@@ -128,9 +128,10 @@ void distribution(std::vector<Decision>& to, const Facts& f) {
            "gamma have a longer tail)",
            factor(t.ggx_log_rms), t.longer, t.determined),
        std::string(no_more),
-       fmt::format("you fit gamma, too (median {:.2g}): then GTR with its own Smith, typically {}, "
-                   "{}",
-                   t.gamma, factor(t.gtr_log_rms), cost_text(other, usual))});
+       fmt::format(
+           "you fit gamma, too (its median is {:.2g}): then GTR with its own Smith, typically {}, "
+           "{}",
+           t.gamma, factor(t.gtr_log_rms), cost_text(other, usual))});
 }
 
 // --- Fresnel ---

@@ -426,7 +426,7 @@ std::string index_page_html(const ReportIndex& i) {
                               ? "Both forms of a cost are timed in several processes. The cost is "
                                 "the median of their differences. It is shown if it has the same "
                                 "sign in every process and is larger than the spread and than 3 % "
-                                "of the time. "
+                                "of the slower form's time. "
                               : "Times are medians of one process (--quick). A cost is shown if it "
                                 "exceeds the sum of the spreads of both times. ") +
               (is_timed_in_several_processes(i.facts) ? "Compensations are timed in one process."

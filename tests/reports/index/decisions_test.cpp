@@ -192,9 +192,10 @@ TEST(Decisions, HaveARowForEachPartOfAMaterial) {
             "determine gamma have a longer tail)");
   EXPECT_EQ(without_aside(tails.error),
             "typically ×/÷ 1.5 off published fits of measured materials");
-  EXPECT_EQ(tails.unless,
-            "you fit gamma, too (median 1.4): then GTR with its own Smith, typically ×/÷ 1.2, "
-            "+0.80 ns");
+  EXPECT_EQ(
+      tails.unless,
+      "you fit gamma, too (its median is 1.4): then GTR with its own Smith, typically ×/÷ 1.2, "
+      "+0.80 ns");
   const auto& matte = about(all, "Diffuse of matte surfaces");
   EXPECT_EQ(matte.take_id, "diffuse.eon");
   EXPECT_EQ(matte.error, "none (Lambert: ΔE ≤ 14)");

@@ -256,10 +256,11 @@ TEST(IndexRow, OfDistributionsIsThatOfMeasuredMaterials) {
   EXPECT_EQ(row.error, fmt::format("typically ×/÷ {:.3g} off published fits of measured materials "
                                    "(10 of the 10 that determine gamma have a longer tail)",
                                    std::exp(0.395)));  // between the tenth and the eleventh
-  EXPECT_EQ(row.unless,
-            fmt::format("you fit gamma, too (median 1.5): then GTR with its own Smith, typically "
-                        "×/÷ {:.3g}, +0.10 ns",
-                        std::exp(0.1475)))
+  EXPECT_EQ(
+      row.unless,
+      fmt::format("you fit gamma, too (its median is 1.5): then GTR with its own Smith, typically "
+                  "×/÷ {:.3g}, +0.10 ns",
+                  std::exp(0.1475)))
       << "the error and the time of one model";
   EXPECT_FALSE(facts(CrossFitRows{}).tails);
 }
