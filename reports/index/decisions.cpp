@@ -482,8 +482,7 @@ void precision(std::vector<Decision>& to, const Facts& f) {
                    rounded_up(*half->safe_from)),
        "ndf.ggx",
        fmt::format("off by ≤ {0}; surfaces smoother than roughness {1} look too rough (found by a "
-                   "search over "
-                   "angles up to {2:.0f}°, with cosines in half precision)",
+                   "search over angles up to {2:.0f}°, with cosines in half precision)",
                    percent(half->tolerance, 2), rounded_up(std::sqrt(*half->safe_from)),
                    half->zenith_deg),
        "not timed",

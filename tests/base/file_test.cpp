@@ -11,6 +11,7 @@
 #include "base/error.h"
 #include "base/text.h"
 #include "refusal.h"
+#include "refused_locks.h"
 #include "support.h"
 
 #include <fcntl.h>
@@ -23,7 +24,6 @@
 namespace {
 std::string order;    ///< of what was synced and renamed: (d)ata, (r)enamed, (f)older
 unsigned slowly = 0;  ///< microseconds that a renaming takes
-int refused = 0;      ///< locks that were asked for and that another had
 }
 
 // In place of the library's, as the room calls them: to see their order.
@@ -41,14 +41,6 @@ extern "C" int rename(const char* from, const char* to) noexcept {
   ::usleep(slowly);
   return static_cast<int>(::syscall(SYS_renameat2, AT_FDCWD, from, AT_FDCWD, to, 0));
 }
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"  // a structure has that name, too
-extern "C" int flock(int file, int how) noexcept {
-  const auto status = static_cast<int>(::syscall(SYS_flock, file, how));
-  if (status != 0) ++refused;
-  return status;
-}
-#pragma GCC diagnostic pop
 
 namespace gonio {
 namespace {
@@ -511,14 +503,14 @@ TEST(CommitAll, LeavesTheFilesOfOneRunWhereTwoWriteTheSameNames) {
 TEST(CommitAll, AsksForNoLockThatItsRunHasAndForOneThatAnotherHas) {
   const Folder folder;
   const FolderLock lock(folder / "made", FolderLock::Taken::is_refused);
-  const auto refused_locks = [&](const FolderLock* held) {
+  const auto refused = [&](const FolderLock* held) {
     OutputFile one(folder / "made/one"), other(folder / "made/other");
-    refused = 0;
+    test::refused_locks = 0;
     commit_all(std::array{&one, &other}, held);
-    return refused;
+    return test::refused_locks;
   };
-  EXPECT_EQ(refused_locks(&lock), 0);
-  EXPECT_GT(refused_locks(nullptr), 1) << "it waits, and then goes on";
+  EXPECT_EQ(refused(&lock), 0);
+  EXPECT_GT(refused(nullptr), 1) << "it waits, and then goes on";
 }
 
 TEST(FolderLock, IsOfOneAtATime) {

@@ -8,27 +8,11 @@
 #include "base/file.h"
 #include "fitting/batch/batch.h"
 #include "refusal.h"
+#include "refused_locks.h"
 #include "support.h"
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-#include <sys/file.h>
-#include <sys/syscall.h>
-#include <unistd.h>
-
-namespace {
-int refused_locks = 0;  ///< that another had
-}
-
-// In place of the library's, as src/base calls it.
-#pragma GCC diagnostic push
-#pragma GCC diagnostic ignored "-Wshadow"  // a structure has that name, too
-extern "C" int flock(int file, int how) noexcept {
-  const auto status = static_cast<int>(::syscall(SYS_flock, file, how));
-  if (status != 0) ++refused_locks;
-  return status;
-}
-#pragma GCC diagnostic pop
 
 namespace gonio {
 namespace {
@@ -306,9 +290,9 @@ TEST(Gather, NamesItsPageAfterTheFolder) {
 TEST(Gather, DoesNotWaitForTheLockThatItHas) {
   const Tables t;
   t.fit({t.paths[0], t.paths[1]});
-  refused_locks = 0;
+  test::refused_locks = 0;
   gather(t.out, {}, {});
-  EXPECT_EQ(refused_locks, 0);
+  EXPECT_EQ(test::refused_locks, 0);
 }
 
 TEST(Batch, AtOnceWithAnotherOfOtherTablesTheSummaryKnowsBoth) {

@@ -278,8 +278,7 @@ TEST(IndexRow, OfPrecisionIsThatOfTheWholeHighlight) {
       << "at 0.037 it is not kept";
   EXPECT_EQ(row.error,
             "off by ≤ 2.2\u00a0%; surfaces smoother than roughness 0.2 look too rough (found by a "
-            "search over angles "
-            "up to 88°, with cosines in half precision)");
+            "search over angles up to 88°, with cosines in half precision)");
   r.highlights[0].safe_from.reset();
   EXPECT_EQ(of(decisions(facts(r)), "Precision").take, "float instead");
 }
